@@ -62,8 +62,13 @@ Decision decide(const std::vector<Judged>& table) {
   // A rival that the sheet allows stands for a best one that it does not, and one that predicts better for
   // one that does not.
   std::size_t reference = decision.best;
+  if (table[reference].general)  // they beat the catalogue by strong evidence, or not
+    for (std::size_t i = 0; i < table.size(); ++i)
+      if (!table[i].general && table[i].score > table[decision.best].score - decisive.strong &&
+          (table[reference].general || table[i].score > table[reference].score))
+        reference = i;
   for (const std::size_t i : decision.rivals) {
-    if (!allowed(table[i])) continue;
+    if (!allowed(table[i]) || (table[i].general && !table[reference].general)) continue;
     const auto [nats, error] = loss(table[i].held_out, table[reference].held_out);
     if (!allowed(table[reference]) || nats > std::max(decisive.errors * error, decisive.strong))
       reference = i;
@@ -74,7 +79,7 @@ Decision decide(const std::vector<Judged>& table) {
     if (!std::isfinite(table[i].score) || !(nats <= decisive.errors * error) || !allowed(table[i])) continue;
     if (table[i].general) continue;  // many terms are not simple
     const Judged& chosen = table[decision.chosen];
-    if (!allowed(chosen) || size_of(table[i]) < size_of(chosen) ||
+    if (!allowed(chosen) || chosen.general || size_of(table[i]) < size_of(chosen) ||
         (size_of(table[i]) == size_of(chosen) && table[i].score > chosen.score))
       decision.chosen = i;
   }

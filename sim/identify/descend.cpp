@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::array lengths{1.0, 0.3, 0.1};  // of steps that are tried, of the longest
 constexpr int chords = 3;                     // steps by the same slopes
+constexpr double shortest = 0.003;            // step that is worth a simulation, in deviations of the priors
 
 }  // namespace
 
@@ -51,10 +52,11 @@ void Model::descend(const Effort& effort) {
       return;
     }
     if (std::isfinite(effort.beat)) {
-      const auto [evidence, explains] = here();
-      hopeless = !explains && evidence + again * (evidence - evidence_before) < effort.beat;
+      const Here stands = this->here();
+      hopeless = !stands.explains &&
+                 stands.evidence + again * std::max(stands.evidence - evidence_before, 0.0) < effort.beat;
       if (hopeless) return;
-      evidence_before = evidence;
+      evidence_before = stands.evidence;
     }
     // Steps by the same slopes, as long as they serve.
     double here = before;
@@ -84,7 +86,7 @@ void Model::descend(const Effort& effort) {
                         error.of_model() / problem->rows.unit, error.length_s()));
       const double gained = here - costs[best];
       if (!(gained > 0.01)) {
-        if (chord == 0) reach *= 0.1;
+        if (chord == 0) reach *= 0.3 * lengths.back();
         break;
       }
       const Eigen::VectorXd moved = dictionary.vector(tried[best]) - v;
@@ -103,8 +105,9 @@ void Model::descend(const Effort& effort) {
       quadratic = Quadratic(there.sum(), variance().cwiseInverse(), dictionary.vector(point));
       if (quadratic.promised() < effort.enough) break;
     }
-    if (before - here < effort.enough) {  // kinks promise what no step finds
-      arrived = true;
+    if (before - here < effort.enough) {
+      if (reach > shortest) continue;
+      arrived = true;  // kinks promise what no step finds
       return;
     }
     open_ = quadratic.open();

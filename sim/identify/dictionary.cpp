@@ -22,8 +22,22 @@ constexpr std::array<BenchNumber, 4> bench_numbers{
      {"reading_clock", "rate", &Bench::clock, 0.01, -0.3, 0.3},
      {"reading_clock", "offset", &Bench::ahead_s, 0.02, 0.0, 1.0}}};  // late readings are the rig's
 
-/// Of a law of the user's own: each further number alone, beside each value of the first.
-void add_shapes_of_own(Entry& entry) {
+/// A law with a term more, as one: the term's size is one of its shapes.
+std::optional<diagnose::Candidate> whole(const diagnose::Candidate& c,
+                                         const std::vector<diagnose::Candidate>& all) {
+  const auto base = std::ranges::find_if(all, [&](const diagnose::Candidate& one) {
+    return one.effect == c.effect && one.side == c.side && one.variant == c.adds_to;
+  });
+  if (base == all.end()) return std::nullopt;
+  constexpr double most = 30.0;  // times what is typical of a term, and as little
+  diagnose::Candidate law = *base;
+  law.variant = c.variant;
+  law.further = {{c.amplitude, c.typical, {c.typical}, c.typical / most, c.typical * most}};
+  return law;
+}
+
+/// Of a law of several numbers: each further one alone, beside each value of the first.
+void add_shapes(Entry& entry) {
   const diagnose::Candidate& c = *entry.effect;
   const auto add = [&](const std::string& path, double lowest, double highest) {
     const bool positive = lowest > 0.0;
@@ -31,7 +45,7 @@ void add_shapes_of_own(Entry& entry) {
                             .middle = positive ? std::sqrt(highest * lowest) : 0.5 * (lowest + highest),
                             .deviation = (positive ? std::log(highest / lowest) : highest - lowest) / 4.0,
                             .logarithmic = positive,
-                            .furthest = 2.0});
+                            .furthest = c.own ? 2.0 : Shape{}.furthest});  // its file says how far
   };
   if (!c.shape.empty()) add(c.shape, c.shapes.front(), c.shapes.back());
   for (const diagnose::Further& one : c.further) add(one.path, one.lowest, one.highest);
@@ -61,8 +75,8 @@ Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
   entry.lowest = std::min(one, other);
   entry.highest = std::max(one, other);
   if (!c.either_sign) entry.lowest = std::max(entry.lowest, decisive.least);
-  if (c.own) {
-    add_shapes_of_own(entry);
+  if (!c.further.empty() || c.own) {
+    add_shapes(entry);
   } else if (!c.shape.empty()) {
     entry.shapes = {
         {c.shape, c.shapes[c.shapes.size() / 2], std::log(c.shapes.back() / c.shapes.front()) / 4.0}};
@@ -113,8 +127,12 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
   if (written_coarsely > 0.0)
     parameters.push_back(
         {{.path = "bench.zero", .scale = 0.5 * written_coarsely, .lowest = -1.0, .highest = 1.0}});
-  for (const diagnose::Candidate& c : diagnose::catalogue(data))
-    if (c.fits(described_)) entries.push_back(entry_of(c, described_));
+  const std::vector<diagnose::Candidate> all = diagnose::catalogue(data);
+  for (const diagnose::Candidate& c : all)
+    if (c.fits(described_))
+      entries.push_back(entry_of(c, described_));
+    else if (const auto law = whole(c, all); law && law->fits(described_))
+      entries.push_back(entry_of(*law, described_));
   if (data.judged() == domain::Judged::contraction)
     for (const BenchNumber& number : bench_numbers)
       entries.push_back({.name = std::string(number.name),

@@ -76,9 +76,9 @@ struct BenchNumber {
 /// A number of a law besides its size.
 struct Shape {
   std::string path;
-  double middle, deviation;  ///< of its logarithm, or
-  bool logarithmic = true;   ///< of itself
-  double furthest = 4.0;     ///< deviations
+  double middle = 1.0, deviation = 1.0;  ///< of its logarithm, or
+  bool logarithmic = true;               ///< of itself
+  double furthest = 4.0;                 ///< deviations
   double value(double z) const {
     return logarithmic ? middle * std::exp(deviation * z) : middle + deviation * z;
   }

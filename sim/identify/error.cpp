@@ -280,7 +280,7 @@ std::vector<double> Error::key() const {
 
 bool Error::allowed() const {
   return logs_[0] >= std::log(0.02 * rows_->unit) && logs_[1] >= std::log(1e-3 * rows_->unit) &&
-         logs_[2] >= std::log(0.03) && logs_[2] <= std::log(20.0) &&
+         logs_[2] >= std::log(0.03) && logs_[2] <= std::log(std::max(20.0, rows_->longest_s)) &&
          std::abs(logs_[constant_at()]) <= std::log(30.0) && logs_[wander_at()] > -9.2 &&
          logs_[wander_at()] < 0.0;
 }

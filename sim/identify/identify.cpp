@@ -70,7 +70,7 @@ Model Search::started(Point point, double term_N) const {
 
 Model Search::begun(Point point) const {
   Model m = started(std::move(point));
-  m.descend({.rounds = 1});
+  m.settle({.rounds = 1});
   return m;
 }
 
@@ -84,8 +84,8 @@ Model Search::refined(Model m) {
   return m;
 }
 
-Model Search::refined(Point point) {
-  return refined(started(std::move(point)));
+Model Search::refined(Point point, double term_N) {
+  return refined(started(std::move(point), term_N));
 }
 
 /// By straight lines from a model, its error as it is: as sets are compared.
@@ -129,7 +129,7 @@ void Search::describe_bench() {
 /// Is it a law outside the catalogue? Of families of terms, as straight lines; then of the few of them that
 /// promise most, descended.
 void Search::try_terms() {
-  std::vector<Model> bases{table_.at({false, {}})};
+  std::vector<Model> bases{*at_, table_.at({false, {}})};
   if (!dictionary_.names(here_->point).empty()) bases.push_back(*here_);
   std::optional<Few> one, several;
   for (const Model& base : bases)
@@ -146,8 +146,14 @@ void Search::try_terms() {
               best = std::move(few);
       }
     }
-  if (one) refined(started(one->point, one->term_N));
-  if (several && several->value > one->value) refined(started(several->point, several->term_N));
+  const auto take = [&](const Few& few) {
+    Model m = refined(started(few.point, few.term_N));
+    if (!(m.score > here_->score)) return;
+    here_ = std::move(m);
+    prune();  // names and bent parameters may have stood for it
+  };
+  if (one) take(*one);
+  if (several && several->value > one->value && !here_->error.explains()) take(*several);
 }
 
 void Search::begin() {

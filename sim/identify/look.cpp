@@ -1,6 +1,7 @@
 // Where a search looks, what it begins there, and what of it is needed; see search.hpp.
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -206,28 +207,45 @@ bool Search::look_from(Model base, bool far, bool first) {
   }
   say(fmt::format(" from {}{}: {} tries", fmt::join(dictionary_.names(base.point), " + "),
                   far ? " on the rig as described" : "", chosen.size()));
-  // The one that is best after a round; the first that explains all.
-  std::optional<Model> best;
-  double of_best = -std::numeric_limits<double>::infinity();
+  // A round of each, or of the first ones if one of them explains all; then of the most promising one, until
+  // none promises more than the best one is.
+  struct Try {
+    Model model;
+    Model::Here here;
+  };
+  std::vector<Try> begun_ones;
+  const auto tell = [&](const Try& one) {
+    say(fmt::format("   a round of {}: {:.1f}, {:.1f} hoped for{}",
+                    fmt::join(dictionary_.names(one.model.point), " + "), one.here.evidence, one.here.hoped,
+                    one.here.explains ? " explains" : ""));
+  };
   for (const Start& start : chosen) untried_.push_back(dictionary_.names(start.point));
   for (const Start& start : chosen) {
     Model m = begun(start.point);
     untried_.erase(untried_.begin());
-    const auto [evidence, explains] = m.read.allFinite() ? m.here() : Model::Here{of_best, false};
-    say(fmt::format("   a round of {}, promised {:.1f}: {:.1f}{}",
-                    fmt::join(dictionary_.names(start.point), " + "), start.value - own, evidence,
-                    explains ? " explains" : ""));
-    if (evidence > of_best) {
-      of_best = evidence;
-      best = std::move(m);
-    }
-    explained_ = explains && evidence > here_->score;
+    if (!m.read.allFinite()) continue;
+    const Model::Here now = m.here();
+    begun_ones.push_back({std::move(m), now});
+    tell(begun_ones.back());
+    explained_ = now.explains && now.evidence > here_->score;
     if (explained_) break;
   }
   untried_.clear();
-  if (best) {
-    best = refined(std::move(*best));
-    if (best->score > here_->score) {
+  const auto best_by = [&](double Model::Here::*value) {
+    return std::ranges::max_element(begun_ones, {}, [&](const Try& one) { return one.here.*value; });
+  };
+  for (std::size_t more = 0; more < begun_ones.size(); ++more) {
+    const auto next = best_by(&Model::Here::hoped), best = best_by(&Model::Here::evidence);
+    if (next == best || next->model.arrived) break;
+    step("trying what promises most");
+    next->model.settle({.rounds = 1});
+    const Model::Here before = std::exchange(next->here, next->model.here());
+    if (next->here.evidence < before.evidence + worth) next->here.hoped = next->here.evidence;  // in vain
+    tell(*next);
+  }
+  if (!begun_ones.empty()) {
+    Model best = refined(std::move(best_by(&Model::Here::evidence)->model));
+    if (best.score > here_->score) {
       here_ = std::move(best);
       prune();
       return true;
@@ -298,7 +316,7 @@ void Search::prune() {
         if (described) from.z.setZero();
         std::vector<double> z(from.z.begin(), from.z.end());
         if (!begun_.emplace(dictionary_.names(from), z).second) continue;
-        Model m = refined(from);
+        Model m = refined(from, here_->term_N);
         if (m.score > here_->score) {
           here_ = std::move(m);
           pruned = true;

@@ -137,16 +137,22 @@ void Model::look() {
 }
 
 Model::Here Model::here() const {
-  const Eigen::VectorXd left = residual(), of_prior = variance();
-  const Error fair = error.begun().fitted(left, slopes, of_prior, {1.0, 0.5}).first;
-  const Grams at = fair.grams(left, slopes);
-  const Eigen::MatrixXd gram = at.sum();
-  const double whole =
-      log_prior() +
-      0.5 * static_cast<double>(slopes.cols() - left.size()) * std::log(2.0 * std::numbers::pi) -
-      0.5 * (at.log_det() + gram(0, 0)) -
-      curvature(gram, of_prior.cwiseInverse()).llt().matrixLLT().diagonal().array().log().sum();
-  return {whole, fair.explains()};
+  const Eigen::VectorXd left = residual(), of_prior = variance(), v = problem->dictionary.vector(point);
+  const Error begun = error.begun();
+  const auto laplace = [&](const Error& one, bool stepped) {
+    const Grams at = one.grams(left, slopes);
+    const Eigen::MatrixXd gram = at.sum();
+    const Quadratic quadratic(gram, of_prior.cwiseInverse(), v);
+    return log_prior() +
+           0.5 * static_cast<double>(slopes.cols() - left.size()) * std::log(2.0 * std::numbers::pi) -
+           0.5 * (at.log_det() + gram(0, 0) + quadratic.values.array().log().sum()) +
+           (stepped ? quadratic.promised() : 0.0);
+  };
+  const Error as_it_stands =
+      begun.fitted(left, Eigen::MatrixXd(left.size(), 0), Eigen::VectorXd(), {1.0, 0.5}).first;
+  const Error after_a_step = begun.fitted(left, slopes, of_prior, {1.0, 0.5}).first;
+  const double stands = laplace(as_it_stands, false);
+  return {stands, std::max(stands, laplace(after_a_step, true)), after_a_step.explains()};
 }
 
 void Model::fit_error(std::vector<double> steps, std::vector<std::size_t> only) {

@@ -46,6 +46,7 @@ class Model {
   /// The evidence by the slopes as they are, the error fitted afresh.
   struct Here {
     double evidence;
+    double hoped;   ///< with what straight lines still promise
     bool explains;  ///< as Error's
   };
   Here here() const;

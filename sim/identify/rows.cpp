@@ -65,6 +65,7 @@ Rows::Rows(const domain::Dataset& data, const std::vector<std::vector<bool>>& ma
       const std::vector<double>* list = kind == 0 ? &run.judged() : run.beside(*kinds[kind]);
       if (list == nullptr) continue;
       blocks.push_back({i, kind, static_cast<Eigen::Index>(values.size()), std::ssize(*list)});
+      longest_s = std::max(longest_s, row_s * static_cast<double>(list->size()));
       for (std::size_t k = 0; k < list->size(); ++k) {
         const bool missing =
             kind == 0 ? !run.missing.empty() && run.missing[k] : run.is_missing(*kinds[kind], k);

@@ -30,10 +30,10 @@ class Rows {
   std::vector<std::size_t> runs;
   std::vector<Block> blocks;
   std::vector<std::optional<domain::Beside>>
-      kinds;                ///< of readings; the first, the judged one, is none of these
-  Eigen::VectorXd read;     ///< a counter's: the middle of its count
-  std::vector<char> known;  ///< of each row: whether there is a reading
-  double row_s = 0.0;
+      kinds;                            ///< of readings; the first, the judged one, is none of these
+  Eigen::VectorXd read;                 ///< a counter's: the middle of its count
+  std::vector<char> known;              ///< of each row: whether there is a reading
+  double row_s = 0.0, longest_s = 0.0;  ///< of a row, of a run
   double sensor_count = 0.0;  ///< step of the rig's sensor, of the judged reading; 0: it does not count
   double count =
       0.0;  ///< step that the readings have: the sensor's, or a coarser one in which they were written

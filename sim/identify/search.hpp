@@ -66,7 +66,7 @@ class Search {
   /// After one round of the descent to the most probable numbers.
   Model begun(Point point) const;
   Model refined(Model started);
-  Model refined(Point point);
+  Model refined(Point point, double term_N = 1.0);
   /// By more than chance; where all is explained, a parameter by itself.
   static bool bent(const Model& model) {
     const Eigen::VectorXd& z = model.point.z;

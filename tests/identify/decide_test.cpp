@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/identify/decide.hpp>
+#include <sim/identify/decisive.hpp>
 
 namespace mckibben::identify {
 namespace {
@@ -80,6 +81,16 @@ TEST(Decide, GeneralTermsAreNeverTheSimplerAnswer) {
   general.general = true;
   const Decision d = decide({general, model({"bladder_hysteresis", "gains_differ"}, 0.0, 0.0)});
   EXPECT_EQ(d.chosen, 1U);
+}
+
+TEST(Decide, GeneralTermsBeatTheCatalogueByStrongEvidenceOnly) {
+  const Judged name = model({"bladder_elasticity"}, 0.0, 6.0);
+  for (const double ahead : {1.0, 20.0}) {
+    Judged general = model({"bladder_elasticity", "waves"}, ahead, 0.0);
+    general.general = true;
+    EXPECT_EQ(decide({general, name}).verdict,
+              ahead < decisive.strong ? Verdict::missing_effect : Verdict::unknown_effect);
+  }
 }
 
 TEST(Decide, TakesARivalThatPredictsBetter) {

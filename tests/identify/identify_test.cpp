@@ -1,5 +1,6 @@
 // Small data sets whose answer is known, from their readings to the verdict.
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +34,36 @@ TEST(Identify, NamesNothingWhereNothingIsMissing) {
   const Identified found = identify(diagnose::small({}), {.threads = 2});
   EXPECT_EQ(found.decision.verdict, Verdict::nothing_missing);
   EXPECT_TRUE(named(found).empty());
+}
+
+// Radius, braid angle and end correction are a curved valley, in which slopes cancel.
+TEST(Descent, EndsInOnePlaceWhereverItBegins) {
+  plant::Rig truth;
+  truth.muscle.rest_radius_m *= 0.99;
+  truth.muscle.braid_angle_rad *= 0.985;
+  truth.muscle.end_correction *= 1.01;
+  domain::Dataset data = diagnose::small(truth, 4.0);
+  data.rig = plant::Rig{};
+  const Study study(std::move(data), {.threads = 2});
+  const Error error(study.rows,
+                    study.simulator.wander(study.dictionary.setting(study.dictionary.described())));
+  std::vector<double> ends;
+  for (const double sign : {0.0, 1.0, -1.0}) {
+    Point point = study.dictionary.nominal();
+    for (Eigen::Index j = 0; j < point.z.size(); ++j) point.z[j] = j % 2 == 0 ? sign : -sign;
+    Model model(study.problem, std::move(point), error);
+    model.look();
+    model.settle({});
+    ends.push_back(model.evidence());
+    const auto radius =
+        std::ranges::find(study.dictionary.parameters, "muscle.rest_radius", &Dictionary::Free::path) -
+        study.dictionary.parameters.begin();
+    const double off =
+        truth.muscle.rest_radius_m - study.dictionary.setting(model.point).rig.muscle.rest_radius_m;
+    EXPECT_LT(std::abs(off) / study.dictionary.parameters[static_cast<std::size_t>(radius)].scale,
+              3.0 * std::sqrt(model.covariance(radius, radius)));
+  }
+  EXPECT_LT(std::ranges::max(ends) - std::ranges::min(ends), 0.5);
 }
 
 TEST(Identify, DoesNotDependOnThreads) {
