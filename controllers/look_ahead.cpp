@@ -51,13 +51,15 @@ double LookAhead::current_mA(RigModel& model, double target, double before_mA, c
 void require_long_enough(int ticks, double tick_s, double rmse,
                          const std::function<double(int ticks)>& rmse_with) {
   if (rmse < suspicious_rmse) return;
-  const double twice = rmse_with(2 * ticks);
-  if (twice > 0.5 * rmse) return;
+  // Of one that is far too short, twice is too short as well.
+  const int longer = std::max(2 * ticks, PlansWithModel{}.look_ahead_ticks(tick_s));
+  const double better = rmse_with(longer);
+  if (better > 0.5 * rmse) return;
   std::ostringstream text;
   text << "look_ahead, " << 1e3 * ticks * tick_s
        << " ms, is shorter than this rig takes to answer: on its own "
-       << "model the plan errs by a contraction ratio of " << rmse << " (rmse), with " << 2e3 * ticks * tick_s
-       << " ms by " << twice;
+       << "model the plan errs by a contraction ratio of " << rmse << " (rmse), with "
+       << 1e3 * longer * tick_s << " ms by " << better;
   throw ControllerFailure(text.str());
 }
 

@@ -30,8 +30,8 @@ class LookAhead {
 };
 
 /// Throws ControllerFailure if a plan follows its target badly only because it looks ahead by less than the
-/// rig takes to answer: looking twice as far halves its error. A target out of reach does not. `rmse_with`:
-/// error of a plan that looks ahead by so many ticks.
+/// rig takes to answer: looking twice as far, and as far as usual, halves its error. A target out of reach
+/// does not. `rmse_with`: error of a plan that looks ahead by so many ticks.
 void require_long_enough(int ticks, double tick_s, double rmse,
                          const std::function<double(int ticks)>& rmse_with);
 

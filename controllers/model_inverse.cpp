@@ -1,6 +1,5 @@
 // See the header.
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -10,11 +9,6 @@
 
 namespace mckibben::controllers {
 namespace {
-
-struct Plan {
-  std::vector<double> currents_mA;
-  double rmse = 0.0;  ///< on the model that it was made with
-};
 
 class ModelInverse final : public ModelledController {
  public:
@@ -29,26 +23,7 @@ class ModelInverse final : public ModelledController {
  private:
   void begin(std::unique_ptr<RigModel> model, std::int64_t tick, double before_mA) override {
     begin_ = tick;
-    const std::unique_ptr<RigModel> again = model->copy();
-    plan_ = plan(*model, before_mA, look_ahead_ticks());
-    require_long_enough(look_ahead_ticks(), knowledge().tick_s, plan_.rmse,
-                        [&](int ticks) { return plan(*again, before_mA, ticks).rmse; });
-  }
-
-  Plan plan(RigModel& model, double before_mA, int ahead_ticks) const {
-    LookAhead look(range().width_mA(), ahead_ticks);
-    const auto end = static_cast<std::int64_t>(knowledge().target.size());
-    Plan made;
-    double squares = 0.0;
-    for (std::int64_t k = begin_; k < end; ++k) {
-      before_mA =
-          model.given_mA(look.current_mA(model, aim(k, ahead_ticks), before_mA, range_after(before_mA)));
-      if (k >= 0) squares += std::pow(model.contraction_ratio() - knowledge().target_at(k), 2);
-      model.step({before_mA}, 1);
-      made.currents_mA.push_back(before_mA);
-    }
-    made.rmse = std::sqrt(squares / static_cast<double>(std::max<std::int64_t>(end, 1)));
-    return made;
+    plan_ = plan(*model, tick, before_mA);
   }
 
   double drive_mA(std::int64_t tick, std::int64_t) override {
@@ -75,7 +50,8 @@ class ModelInverseFeedback final : public ModelledController {
   }
 
  private:
-  void begin(std::unique_ptr<RigModel> model, std::int64_t, double before_mA) override {
+  void begin(std::unique_ptr<RigModel> model, std::int64_t tick, double before_mA) override {
+    plan(*model, tick, before_mA);  // of use only if it says that it cannot be followed
     model_ = std::move(model);
     before_mA_ = before_mA;
     observer_.begin(model_->shown_ratio());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,16 +44,26 @@ class ModelledController : public Controller {
   ModelledController(const ModelTerms& terms, const std::string& name, int delay_ticks,
                      const Knowledge& knowledge);
 
-  Command rest() final { return {range_.lowest_mA}; }
+  /// Begins at once where the load is told: whatever takes long is over before time counts.
+  Command rest() final;
   std::int64_t preparation_ticks() const final;
   Command step(const Reading& reading) final;
   std::vector<Finding> findings() const override;
 
  protected:
+  struct Plan {
+    std::vector<double> currents_mA;
+    double rmse = 0.0;  ///< on the model that it was made with
+  };
+
   /// The load is known. `model` is at `tick`, as the rig is; `before_mA` was given in the tick before.
   virtual void begin(std::unique_ptr<RigModel> model, std::int64_t tick, double before_mA) = 0;
   /// Current at the tick of `begin` and after, as the DAC gives it; `counts` are as old as they are used.
   virtual double drive_mA(std::int64_t tick, std::int64_t counts) = 0;
+
+  /// Currents from `tick` to the end of the target, on a copy of the model. Throws ControllerFailure where
+  /// look_ahead is too short for it.
+  Plan plan(const RigModel& model, std::int64_t tick, double before_mA) const;
 
   const Knowledge& knowledge() const { return knowledge_; }
   const CurrentRange& range() const { return range_; }
@@ -70,6 +81,8 @@ class ModelledController : public Controller {
   const ModelTerms& terms() const { return terms_; }
 
  private:
+  Plan plan_on(RigModel& model, std::int64_t tick, double before_mA, int ahead_ticks) const;
+  void begin_at(std::int64_t tick);
   double weigh_or_drive_mA(std::int64_t tick, std::int64_t counts);
 
   ModelTerms terms_;
@@ -80,6 +93,7 @@ class ModelledController : public Controller {
   Delayed<std::int64_t> delayed_;
   std::optional<RiseWeighing> weighing_;
   bool begun_ = false;
+  std::exception_ptr could_not_begin_;
 };
 
 }  // namespace mckibben::controllers

@@ -117,6 +117,17 @@ class PairModelInverse final : public PairModelled {
   PairModelInverse(const PairModelInverseSettings& settings, const Knowledge& known)
       : PairModelled(settings, settings.name, known), settings_(settings) {}
 
+  void plan() {
+    plan_once();
+    require_long_enough(ahead_ticks(), known().tick_s, planned_rmse_, [this](int ticks) {
+      PairModelInverseSettings other = settings_;
+      other.look_ahead_s = ticks * known().tick_s;
+      PairModelInverse again(other, known());
+      again.plan_once();
+      return again.planned_rmse_;
+    });
+  }
+
   std::vector<Finding> findings() const override {
     std::vector<Finding> found{{"planned_rmse", "1", planned_rmse_}};
     if (planned_stiffness_) found.push_back({"planned_stiffness_rmse", "N.m/rad", *planned_stiffness_});
@@ -125,21 +136,12 @@ class PairModelInverse final : public PairModelled {
 
  private:
   Command drive(const Reading& reading) override {
-    if (!begun()) {
-      plan();
-      require_long_enough(ahead_ticks(), known().tick_s, planned_rmse_, [this](int ticks) {
-        PairModelInverseSettings other = settings_;
-        other.look_ahead_s = ticks * known().tick_s;
-        PairModelInverse again(other, known());
-        again.plan();
-        return again.planned_rmse_;
-      });
-    }
+    if (!begun()) plan();
     const auto last = static_cast<std::int64_t>(plan_.size()) - 1;
     return plan_[static_cast<std::size_t>(std::min(reading.tick + preparation_ticks(), last))];
   }
 
-  void plan() {
+  void plan_once() {
     begin();
     const auto end = static_cast<std::int64_t>(known().target.size());
     double squares = 0.0, stiffness_squares = 0.0;
@@ -166,6 +168,7 @@ class PairModelInverseFeedback final : public PairModelled {
  public:
   PairModelInverseFeedback(const PairModelInverseFeedbackSettings& settings, const Knowledge& known)
       : PairModelled(settings, settings.name, known),
+        terms_(settings),
         believed_(settings.fastest_load_per_s(known), known),
         delayed_(settings.feedback_delay_ticks),
         observer_(settings, known) {}
@@ -179,6 +182,7 @@ class PairModelInverseFeedback final : public PairModelled {
  private:
   Command drive(const Reading& reading) override {
     if (!begun()) {
+      PairModelInverse({terms_}, known()).plan();  // of use only if it says that it cannot be followed
       begin();
       observer_.begin(model().shown_ratio());
     }
@@ -188,6 +192,7 @@ class PairModelInverseFeedback final : public PairModelled {
     return next(reading.tick, -observer_.unknown());
   }
 
+  PairModelTerms terms_;
   BelievedCounts believed_;
   Delayed<std::int64_t> delayed_;
   ModelObserver observer_;

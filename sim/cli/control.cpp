@@ -53,10 +53,10 @@ std::string unfit(const Scenario& scenario) {
   if (const auto* terms = controllers::part_of<controllers::PidForm>(only);
       terms != nullptr && terms->needs_tuning())
     return "controllers: its gains are missing; tune them with `run`, and write them down";
-  if (const auto* plans = std::get_if<controllers::ModelInverseSettings>(&only);
+  if (const auto* plans = controllers::part_of<controllers::ModelTerms>(only);
       plans != nullptr && !plans->assumed_load_kg)
-    return "controllers: model_inverse plans the whole run once it has weighed, longer than a tick; "
-           "write the load down as assumed_load, or take model_inverse_feedback";
+    return "controllers: to find its load from the weighing takes longer than a tick; write it down as "
+           "assumed_load";
   return "";
 }
 

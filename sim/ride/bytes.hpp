@@ -14,7 +14,7 @@
 
 namespace mckibben::ride {
 
-/// What is made of members, what grows, and what lies in memory as it is.
+/// What is made of members, what grows, what may lack, and what lies in memory as it is.
 template <class T, class Visitor>
 concept HasMembers = requires(T& value, Visitor& visit) {
   T::members(value, visit);
@@ -22,6 +22,11 @@ concept HasMembers = requires(T& value, Visitor& visit) {
 template <class T>
 concept Grows = requires(T& value) {
   value.resize(0);
+};
+template <class T>
+concept MayLack = requires(T& value) {
+  value.reset();
+  value.has_value();
 };
 
 /// Of the bytes before (FNV-1a, 64 bits).
@@ -48,6 +53,9 @@ class BytesWriter {
     } else if constexpr (Grows<T>) {
       write(value.size());
       for (const auto& each : value) write(each);
+    } else if constexpr (MayLack<T>) {  // what it lacks is whatever memory held
+      write(static_cast<std::uint8_t>(value.has_value()));
+      if (value) write(*value);
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
       T plain = value;
@@ -89,6 +97,11 @@ class BytesReader {
       if (size > rest_.size()) fail();  // each takes a byte at least
       value.resize(size);
       for (auto& each : value) read(each);
+    } else if constexpr (MayLack<T>) {
+      std::uint8_t is_there = 0;
+      read(is_there);
+      value.reset();
+      if (is_there != 0) read(value.emplace());
     } else {
       static_assert(std::is_trivially_copyable_v<T>);
       if (rest_.size() < sizeof value) fail();

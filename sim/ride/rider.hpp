@@ -40,6 +40,12 @@ struct Command {
     if (muscle_pressure_Pa) return plant::GivenPressure::muscle;
     return valve_pressure_Pa ? plant::GivenPressure::valve : plant::GivenPressure::none;
   }
+
+  template <class Self, class Visitor>
+  static void members(Self& self, Visitor& visit) {
+    visit(self.current_mA, self.stray_current_mA, self.stray_pressure_Pa, self.muscle_pressure_Pa,
+          self.valve_pressure_Pa);
+  }
 };
 
 /// What acts on a rig: on its muscle, on the opposite one of a pair, on the joint a bench that gives the
@@ -48,6 +54,12 @@ struct Drive : Command {
   std::optional<double> contraction_ratio{};
   Command opposite{};
   double joint_force_N = 0.0;  ///< held until then; positive lengthens the (first) muscle
+
+  template <class Self, class Visitor>
+  static void members(Self& self, Visitor& visit) {
+    Command::members(self, visit);
+    visit(self.contraction_ratio, self.opposite, self.joint_force_N);
+  }
 };
 
 /// What instruments see at an instant, before they count or round.

@@ -84,7 +84,7 @@ class Run : public ride::BatchItem {
         counter_(plan.rig),
         disturbance_(plan) {
     recording_.samples.reserve(plan_.ticks);
-    ask(controller_.rest());
+    ask_timed([&] { return controller_.rest(); });
     rider_.start(drive_, time_s(begin_));
   }
 
@@ -122,10 +122,7 @@ class Run : public ride::BatchItem {
   bool tick() {
     look();
     try {
-      const auto begin = std::chrono::steady_clock::now();
-      ask(controller_.step({k_, time_s(k_), counts_}));
-      recording_.controller_s +=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      ask_timed([&] { return controller_.step({k_, time_s(k_), counts_}); });
     } catch (const controllers::ControllerFailure& failure) {
       recording_.failure = failure.what();
       return false;
@@ -165,6 +162,14 @@ class Run : public ride::BatchItem {
     const double jitter_m = disturbance_.of(Sensed::contraction) * plan_.rig.muscle.rest_length_m;
     if (k_ <= begin_ + 1 || takes_a_reading(sensor_))
       counts_ = counter_.count(rider_.now.reading.wheel_m + jitter_m);
+  }
+
+  template <class Answer>
+  void ask_timed(Answer answer) {
+    const auto begin = std::chrono::steady_clock::now();
+    ask(answer());
+    recording_.controller_s +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
   void ask(const controllers::Command& wanted) {

@@ -43,6 +43,7 @@ std::vector<std::string> not_at_rest(const domain::Dataset& dataset,
     if (runs[i].recording.samples.empty() || dataset.runs[i].length_is_given()) continue;
     const run::Sample& first = runs[i].recording.samples.front();
     const bool pair = dataset.rig.pair() != nullptr;
+    const bool points = dataset.runs[i].measured && dataset.runs[i].measured->point_s > 0.0;
     const double speed =
         std::abs(pair ? first.angle_speed_rad_per_s : first.state.joint.contraction_speed_per_s);
     if (speed <= (pair ? still_rad_per_s : still_per_s)) continue;
@@ -51,7 +52,7 @@ std::vector<std::string> not_at_rest(const domain::Dataset& dataset,
         fmt::format("is to begin at rest, and after settling_time ({:.4g} s) still moves at {:.2g} {}: a "
                     "longer settling_time of the rig{}",
                     dataset.rig.settling_time_s, speed, pair ? "rad/s" : "of its length a second",
-                    pair ? "" : ", or start: moving")));
+                    pair || points ? "" : ", or start: moving")));
   }
   return warnings;
 }

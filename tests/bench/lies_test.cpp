@@ -112,6 +112,7 @@ const Lie lies[] = {
     {"trembling_but_dead", [](int n, long) { return line(n % 3); }, still},
     {"noise_of_a_dead_one", [](int n, long) { return line(7 * n % 11); }, apart},
     {"a_quarter", [](int, long counts) { return line(counts / 4); }, apart},
+    {"doubled", [](int, long counts) { return line(2 * counts); }, beyond},
     {"begins_at_a_million", [](int, long counts) { return line(counts + 1000000); }, begin},
     {"begins_where_it_was_left", [](int, long counts) { return line(counts + 200); }, begin},
     {"begins_at_the_end", [](int n, long) { return line(n == 0 ? highest : lowest); }, begin},

@@ -102,8 +102,9 @@ TEST(Control, RefusesWhatCannotDriveABench) {
   };
   refused(on_bench, "[16.138 kg]", "[11 kg, 16 kg]", "one load hangs on a bench");
   refused(on_bench, "proportional: 60 mA, ", "", "its gains are missing");
-  refused(on_bench, "{kind: pid, proportional: 60 mA, integral_time: 0.15 s, derivative_time: 0.05 s}",
-          "{kind: model_inverse}", "write the load down as assumed_load");
+  for (const char* weighs : {"{kind: model_inverse}", "{kind: model_inverse_feedback}"})
+    refused(on_bench, "{kind: pid, proportional: 60 mA, integral_time: 0.15 s, derivative_time: 0.05 s}",
+            weighs, "write it down as assumed_load");
   for (const char* options : {"--device serial", "--device comedi", "--port /dev/ttyACM0",
                               "--device serial --port /nowhere --encoder 8:10"})
     EXPECT_EQ(mckibben(std::string("control b.yaml ") + options, scratch).status, 64) << options;

@@ -86,6 +86,19 @@ TEST_F(Given, TheValvesPressureFillsTheMuscleAsTheValveDid) {
       << refused.err;
 }
 
+// What is proposed to a run that does not begin at rest is what the reader takes.
+TEST_F(Given, SettledPointsAreNotToldToStartMoving) {
+  const std::string rig = "{base: thesis, settling_time: 20 ms}", command = "command: {column: i, unit: mA}";
+  write_text(scratch / "a.csv", "t,i\n0,8\n0.3,8.5\n0.6,9\n");
+  const auto said = [&](const std::string& clock) {
+    return replay(rig, "columns: {" + clock + ", " + command + "}\n", "file: a.csv, load: 5 kg").err;
+  };
+  EXPECT_TRUE(holds(said("time: {column: t, unit: s}"), "still moves at ", "or start: moving"));
+  const std::string of_points = said("settled: {each: 0.3 s}");
+  EXPECT_TRUE(holds(of_points, "still moves at ", "a longer settling_time of the rig"));
+  EXPECT_EQ(of_points.find("start: moving"), std::string::npos) << of_points;
+}
+
 TEST_F(Given, AGaugeOnTheValveIsComparedWithTheValve) {
   swing();
   const std::string gauge = "  valve_pressure: {column: valve_pressure_bar, unit: bar, zero: 0.1}\n";

@@ -14,7 +14,8 @@ struct Laws {
   double per_mA = 0.02;   ///< height, as contraction ratio, for each mA above 4
   double per_kg = 0.004;  ///< and less for each kg
   double lag_ticks = 3.0;
-  double play = 0.0;  ///< half of what the height may change before the load follows
+  double play = 0.0;      ///< half of what the height may change before the load follows
+  int* copies = nullptr;  ///< counts them
 };
 
 class Believed final : public RigModel {
@@ -24,6 +25,7 @@ class Believed final : public RigModel {
     now_.ratio = now_.lagging;
   }
   std::unique_ptr<RigModel> copy() const override {
+    if (laws_.copies) ++*laws_.copies;
     auto other = std::make_unique<Believed>(laws_, load_kg_, 4.0);
     other->now_ = now_;
     return other;

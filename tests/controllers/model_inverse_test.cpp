@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -139,6 +140,24 @@ TEST(ModelInverse, WithAnAssumedLoadWeighsNothing) {
   EXPECT_LT(controller->preparation_ticks(), 100);
   Believed rig({}, 12.0, 4.0);
   EXPECT_LT(rmse(*controller, rig, known), 0.003);
+}
+
+// `control` has a few ticks for each answer but the first.
+TEST(ModelInverse, PlansBeforeTimeCountsWhereTheLoadIsTold) {
+  const auto of_rest_and_step = [](auto settings) {
+    int copies = 0;
+    settings.assumed_load_kg = 12.0;
+    settings.model = [&](double load_kg, const Command& rest) {
+      return std::make_unique<Believed>(Laws{.copies = &copies}, load_kg, rest.current_mA);
+    };
+    const auto controller = settings.make(knowledge());
+    EXPECT_EQ(controller->rest().current_mA, 4.0);
+    const int in_rest = std::exchange(copies, 0);
+    controller->step({-controller->preparation_ticks(), 0.0, 0});
+    return std::pair(in_rest, copies);
+  };
+  EXPECT_EQ(of_rest_and_step(ModelInverseSettings{}), std::pair(1, 0));
+  EXPECT_EQ(of_rest_and_step(ModelInverseFeedbackSettings{}), std::pair(1, 0));
 }
 
 TEST(ModelInverse, NeedsAModel) {

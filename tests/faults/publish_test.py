@@ -2,7 +2,7 @@
 """Results that are never lost or stuck: one file operation of a verb after another goes wrong (faults.cpp), over an
 older result.
 
-    publish_test.py MCKIBBEN FAULTS_LIBRARY run|dataset|ensemble|diagnose|import|replay|map|fmu [every]
+    publish_test.py MCKIBBEN FAULTS_LIBRARY run|dataset|ensemble|diagnose|import|replay|map|calibrate|fmu [every]
 
 Without `every` only the telling operations (letters.py). For each of them, n: killed at the n-th operation, and
 the next run at another, the old or the new result is there, whole; the run after that ends well and leaves the same
@@ -39,6 +39,10 @@ loads: [11.138 kg]
 currents: [{{duration: 0.3 s, current: {{kind: sine_current, low: 0 mA, high: 20 mA, period: 2.4 s}}}}]
 noise: {{encoder_jitter: 1e-4}}
 """
+LOADS_AND_SPEEDS = """schema: mckibben-campaign/1
+loads: [5 kg, 9 kg, 13 kg, 17 kg]
+currents:
+""" + "".join(f"  - {{duration: {s} s, current: {{kind: sine_current, low: 4 mA, high: 20 mA, period: {s} s}}}}\n" for s in (2, 3, 4))
 ENSEMBLE = CAMPAIGN + "repeats: 70\nvary: {{muscle.rest_radius: normal 7.5 mm ± 1 %}}\n"
 # Two runs in which nothing moves: `diagnose` decides at once, and writes what it always writes.
 DATASET = """schema: mckibben-dataset/1
@@ -49,10 +53,10 @@ with open(os.path.join(os.path.dirname(__file__), "../../scenarios/thesis_calibr
     CALIBRATION = shipped.read().replace("{", "{{").replace("}", "}}") + "# {seed}\n"
 INPUT = {"run": SCENARIO, "dataset": CAMPAIGN, "ensemble": ENSEMBLE, "diagnose": DATASET,
          "replay": DATASET.replace("r{seed}", "r").replace("11.138", "11.{seed}"),
-         "map": CALIBRATION, "fmu": RIG,
+         "map": CALIBRATION, "fmu": RIG, "calibrate": "# {seed}\n",
          "import": "t [s],I (mA),x_mm\n" + "".join(f"{k}.0,{{seed}},{k}.5\n" for k in range(40))}[VERB]
 COMMAND = "dataset" if VERB == "ensemble" else VERB
-FILE = "input.csv" if VERB == "import" else "input.yaml"
+FILE = {"import": "input.csv", "calibrate": "measured/dataset.yaml"}.get(VERB, "input.yaml")
 OPTIONS = {"import": [], "fmu": [], "map": ["--ratios", "2", "--speeds", "1", "--up", "--load", "16.138 kg"]}.get(
     VERB, ["--threads", "1"])
 TABLE = "time_s,current_mA,contraction_ratio\n" + "".join(f"{0.012 * k:.3f},4,0.01\n" for k in range(40))
@@ -79,6 +83,10 @@ class Place:
         self.saved = os.path.join(root, "saved")
         with open(os.path.join(root, "r.csv"), "w") as file:
             file.write(TABLE)
+        if VERB == "calibrate":
+            with open(os.path.join(root, "campaign.yaml"), "w") as file:
+                file.write(LOADS_AND_SPEEDS)
+            subprocess.run([PROGRAM, "dataset", "campaign.yaml", "--out", "measured"], cwd=root, capture_output=True, check=True)
         self.results = []
         for seed in (1, 2):
             self.seed(seed)
@@ -91,7 +99,7 @@ class Place:
         self.back()
 
     def seed(self, seed):
-        with open(os.path.join(self.root, FILE), "w") as file:
+        with open(os.path.join(self.root, FILE), "a" if VERB == "calibrate" else "w") as file:
             file.write(INPUT.format(seed=seed))
 
     def back(self):

@@ -94,6 +94,19 @@ TEST(PairTracking, AModelFollowsAtAnyTick) {
   }
 }
 
+TEST(PairTracking, ALookAheadThatIsTooShortIsRefused) {
+  controllers::PairModelInverseSettings open;
+  controllers::PairModelInverseFeedbackSettings closed;
+  open.look_ahead_s = closed.look_ahead_s = 0.006;
+  domain::Scenario scenario = sine({open, closed}, {0.0});
+  scenario.rig.tick_s = 0.002;
+  scenario.duration_s = 1.2;
+  for (const TrackedRun& run : compare(scenario, 2, nobody).runs)
+    EXPECT_NE(run.failure.find("look_ahead, 6 ms, is shorter than this rig takes to answer"),
+              std::string::npos)
+        << run.name << ": " << run.failure;
+}
+
 TEST(PairTracking, TheStiffnessIsHadThatIsWanted) {
   controllers::PairModelInverseSettings inverse;
   domain::Scenario scenario = sine({pid(), inverse}, {0.5});

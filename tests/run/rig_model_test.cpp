@@ -141,11 +141,17 @@ TEST(RigModel, LooksAheadBeyondTheDeadTimeThatItKnows) {
 
 TEST(RigModel, RefusesALookAheadShorterThanTheRigsAnswer) {
   controllers::ModelInverseSettings open;
-  open.assumed_load_kg = 16.138;
-  open.look_ahead_s = 0.016;
-  const std::string failure = compared(at_tick(0.002, open)).runs[0].failure;
-  EXPECT_NE(failure.find("look_ahead, 16 ms, is shorter than this rig takes to answer"), std::string::npos)
-      << failure;
+  controllers::ModelInverseFeedbackSettings closed, weighs, far_too_short;
+  open.assumed_load_kg = closed.assumed_load_kg = far_too_short.assumed_load_kg = 16.138;
+  open.look_ahead_s = closed.look_ahead_s = weighs.look_ahead_s = 0.024;
+  far_too_short.look_ahead_s = 0.012;
+  for (const controllers::Settings& settings :
+       {controllers::Settings(open), controllers::Settings(closed), controllers::Settings(weighs),
+        controllers::Settings(far_too_short)}) {
+    const std::string failure = compared(at_tick(0.012, settings)).runs[0].failure;
+    EXPECT_NE(failure.find("is shorter than this rig takes to answer"), std::string::npos)
+        << controllers::name_of(settings) << ": " << failure;
+  }
 }
 
 // The way from rest to where the target begins is nobody's error, and no tuning's.
