@@ -57,7 +57,7 @@ struct DiagnoseOptions : Options {
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = input::read_dataset(options.dataset);
   if (!options.rig.empty()) input::take_rig(data, options.rig, input::read_rig(options.rig, data.inputs));
-  const std::vector<std::string> warnings = tasks::prepare(data, options.hypotheses);
+  const std::vector<std::string> warnings = tasks::prepare(data, options.hypotheses, warn);
   const std::string name = output::name_of(data);
   check_plan(options.plan);
   Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);

@@ -133,14 +133,16 @@ class Readings {
     const Series& model = expected_[i].judged;
     std::vector<bool>& masked = result_.masked[i];
     const Series sharpest = sharpest_nearby(model, data_.row_s());
+    const auto absent = std::count(masked.begin(), masked.end(), true);  // no fault: read at other stamps
     range_ends(i);
     mask_spikes(i, reading(), values, model, count_);
     stand_still(i, stills(values, model, count_, data_.row_s()));
     if (result_.left_out[i]) return;
-    const auto lost = std::count(masked.begin(), masked.end(), true);
+    const auto lost = std::count(masked.begin(), masked.end(), true) - absent;
+    const auto read = static_cast<std::ptrdiff_t>(masked.size()) - absent;
     if (const auto row = lost_counts(values, sharpest, masked, count_))
       leave_out(i, lost_in_words(i, values[*row] - values[*row - 1], time_s(*row)));
-    else if (static_cast<double>(lost) > of_readings.most_masked * static_cast<double>(masked.size()))
+    else if (static_cast<double>(lost) > of_readings.most_masked * static_cast<double>(read) || read == 0)
       leave_out(i, "too little of it is left");
   }
 

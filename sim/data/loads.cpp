@@ -44,6 +44,7 @@ std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const
   const auto carried_kg = [&](double contraction_ratio, std::size_t k) {
     return braid.force_N(contraction_ratio, expected.pressure_Pa[k]) / plant::gravity_m_per_s2;
   };
+  if (range(run.contraction_ratio) == 0.0) return std::nullopt;  // a dead reading weighs nothing
   Series plain_kg, compared_kg;
   for (std::size_t k = 0; k < std::min(run.contraction_ratio.size(), expected.pressure_Pa.size()); ++k) {
     const double measured = run.contraction_ratio[k], simulated = expected.judged[k];
@@ -93,7 +94,7 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
        "N, not kg: write the mass, N / 9.81"},
       {pound_kg, of_loads.near_pounds, of_loads.sure_pounds, "pounds, not kg: write lb"},
       {10.0, of_loads.near_grams, of_loads.sure_tenth,
-       "a tenth of what hung: is a digit missing, or a point wrong?"}};
+       "a tenth of what hung (a digit missing, a point misplaced)"}};
   const double ratio = common_ratio(list);
   if (ratio <= 0.0) return std::nullopt;
   for (const LoadUnit& unit : units) {
@@ -102,11 +103,31 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
     return Finding{
         "load", runs_of(list),
         fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
-                    "factor; these look like {}",
-                    domain::write_number(list.front().label_kg), list.front().seems_kg, unit.says),
+                    "factor; these look like {}, here load: {:.6g} kg",
+                    domain::write_number(list.front().label_kg), list.front().seems_kg, unit.says,
+                    unit.ratio * list.front().label_kg),
         off < std::log(unit.sure) ? Severity::refused : Severity::doubtful};
   }
   return std::nullopt;
+}
+
+/// Single loads that are a tenth or a thousandth of what hung, or ten or a thousand times that, beside
+/// others that are right.
+std::optional<Finding> misplaced_points(const domain::Dataset& data, const std::vector<Weighed>& list) {
+  const double scale = common_ratio(list);
+  Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
+  for (const Weighed& one : list)
+    for (const double factor : {10.0, 0.1, 1e3, 1e-3}) {
+      const double off = std::abs(std::log(one.seems_kg / one.label_kg / scale / factor));
+      if (one.seems_kg <= 0.0 || scale <= 0.0 || !(off < std::log(of_loads.sure_tenth))) continue;
+      found.runs.push_back(one.run);
+      found.message +=
+          fmt::format("{}{} ({} kg) moves like {:.3g} kg: write load: {:.6g} kg",
+                      found.message.empty() ? "is a point misplaced? " : "; ", data.runs[one.run].id,
+                      domain::write_number(one.label_kg), one.seems_kg, factor * one.label_kg);
+    }
+  if (found.runs.empty()) return std::nullopt;
+  return found;
 }
 
 /// How much nearer the labels of two runs come to what they seem to weigh if they are exchanged; 0 if they
@@ -173,6 +194,7 @@ void check_loads(const domain::Dataset& data, const std::vector<Expected>& expec
   const std::vector<Weighed> list = weigh(data, expected);
   if (list.empty()) return;
   auto found = other_unit(list);
+  if (!found) found = misplaced_points(data, list);
   if (!found) found = exchanged_labels(data, list);
   if (found) findings.push_back(std::move(*found));
 }

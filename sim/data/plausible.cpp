@@ -23,7 +23,6 @@ using domain::ColumnPlace, domain::line_of;
 using Series = std::vector<double>;
 
 constexpr const PlausibleThresholds& limits = thresholds.plausible;
-constexpr double lowest_share = 0.01;  // of the rows: a run's lowest pressure but for noise
 
 Series known(const Series& values) {
   Series list;
@@ -119,13 +118,15 @@ class Plausible {
       if (gap_s > time_s[widest] - time_s[widest - 1]) widest = k;
     }
     if (gaps > 0 && static_cast<double>(gaps) < limits.most_gaps * static_cast<double>(time_s.size()))
-      find("", "gap",
-           fmt::format(
-               "no rows from {:.4g} s to {:.4g} s, elsewhere {:.3g} ms apart{}: what drove the rig meanwhile "
-               "is not known; leave the rows before or after it out with from: or to: of the run",
-               time_s[widest - 1], time_s[widest], 1e3 * step_s,
-               gaps > 1 ? fmt::format(" ({} gaps)", gaps) : ""),
-           Severity::doubtful);
+      find(
+          "", "gap",
+          fmt::format(
+              "no rows from {:.4g} s to {:.4g} s, elsewhere {:.3g} ms apart{}: what drove the rig meanwhile "
+              "is not known; leave out what is after or before it: to: {:.6g} s or from: {:.6g} s of the run",
+              time_s[widest - 1], time_s[widest], 1e3 * step_s,
+              gaps > 1 ? fmt::format(" ({} gaps)", gaps) : "", time_s[widest - 1] - time_s.front(),
+              time_s[widest] - time_s.front()),
+          Severity::doubtful);
   }
 
   void look_at(const domain::MeasuredColumn& column) {
@@ -146,8 +147,8 @@ class Plausible {
     find(key, "dead",
          fmt::format(
              "{} never moves, though what drives the rig does: is {} the right column, and was its sensor "
-             "connected?",
-             key, map_[key].column),
+             "connected? Name another in columns: {{{}}}, or leave the run out",
+             key, map_[key].column, line_of(key, map_[key])),
          Severity::doubtful);
   }
 
@@ -185,7 +186,7 @@ class Plausible {
     const auto rests =
         std::ranges::count_if(values, [&](double value) { return value < low + limits.rests * low; });
     lows_[key].push_back(
-        {run_, lower_share(values, lowest_share),
+        {run_, lower_share(values, limits.lowest_share),
          static_cast<double>(rests) > limits.resting_share * static_cast<double>(values.size())});
   }
 

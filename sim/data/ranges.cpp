@@ -1,8 +1,10 @@
 // See the header.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,10 +30,14 @@ bool within(const Series& values, double lowest, double highest) {
   return std::none_of(values.begin(), values.end(), [&](double v) { return v < lowest || v > highest; });
 }
 
-/// The unit of a clock whose rows are so many ticks of our seconds apart; empty if it is none.
-std::string clock_unit(double ticks) {
-  for (const auto& [factor, unit] : {std::pair{1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}, {1.0 / 60.0, "min"}})
-    if (std::abs(ticks / factor - 1.0) < 1e-3) return unit;
+/// The unit of a clock whose rows, read in unit `said`, are so many ticks apart; empty if it is none.
+std::string clock_unit(double ticks, std::string_view said) {
+  constexpr std::array<std::pair<std::string_view, double>, 5> units{
+      {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"min", 60.0}}};
+  const auto of = std::ranges::find(units, said, &std::pair<std::string_view, double>::first);
+  if (of == units.end()) return "";
+  for (const auto& [unit, size_s] : units)
+    if (unit != said && std::abs(ticks * size_s / of->second - 1.0) < 1e-3) return std::string(unit);
   return "";
 }
 
@@ -207,13 +213,22 @@ std::optional<WrongNumber> check_clock(const Series& time_s, const ColumnMap& ma
   const double step_s = even_step_s(time_s), tick_s = rig.tick_s;
   const bool right = std::abs(step_s / tick_s - 1.0) < 1e-3;
   ColumnPlace meant = with_our_names(map, rig.command_unit())["time"];
-  if (const std::string unit = clock_unit(step_s / tick_s); !unit.empty() && meant.unit == "s") {
-    meant = {meant.column, unit, meant.zero, meant.factor};
+  for (const double factor : {1e-3, 1e-6, 1e3, 1e6})
+    if (std::abs(step_s / tick_s / factor - 1.0) < 1e-3 && clock_unit(step_s / tick_s, meant.unit).empty()) {
+      meant.factor /= factor;
+      return WrongNumber{
+          0, 1,
+          fmt::format("time_s = {}: its rows are {:.6g} s apart, the rig's ticks {:.6g} s; if its stamps are "
+                      "off by that factor, write columns: {{{}}}",
+                      write_number(time_s[1]), step_s, tick_s, line_of("time", meant))};
+    }
+  if (const std::string unit = clock_unit(step_s / tick_s, meant.unit); !unit.empty()) {
+    const std::string said = std::exchange(meant.unit, unit);
     return WrongNumber{
         0, 1,
         fmt::format("time_s = {}: its rows are {:.6g} s apart, the rig's ticks {:.6g} s; this looks "
-                    "like {}, not s; write columns: {{{}}}",
-                    write_number(time_s[1]), step_s, tick_s, unit, line_of("time", meant))};
+                    "like {}, not {}; write columns: {{{}}}",
+                    write_number(time_s[1]), step_s, tick_s, unit, said, line_of("time", meant))};
   }
   if (right && time_s.front() != 0.0 && meant.unit == "s" && meant.factor == 1.0) {
     meant.zero += time_s.front();

@@ -28,6 +28,7 @@ constexpr std::size_t least_windows = 5, least_in_window = 12;
 constexpr std::size_t around = 2;          // windows before and after
 constexpr std::size_t least_cut_off = 20;  // readings in a row
 constexpr double scatters = 0.2;           // of neighbours are equal, at most, in a column that scatters
+constexpr double turns_back = 0.05;        // of its moves go back, at least: else it moves and then rests
 constexpr std::size_t beside_cut_off = 5;  // readings: their noise is cut off on one side
 
 /// A wave in a window, beside a cubic for what the rig does; what the cubic leaves, and what both leave.
@@ -178,13 +179,17 @@ CutOff leave_out_cut_off(std::vector<double>& values) {
     if (!std::isnan(value)) known.push_back(value);
   if (known.size() < 2) return {};
   const auto [lowest, highest] = std::ranges::minmax(known);
-  std::size_t equal = 0, inside = 0;
+  std::size_t equal = 0, inside = 0, turns = 0;
   for (std::size_t k = 1; k < known.size(); ++k) {
     if (known[k] == lowest || known[k] == highest) continue;
     ++inside;
     if (known[k] == known[k - 1]) ++equal;
+    if (k > 1 && (known[k] - known[k - 1]) * (known[k - 1] - known[k - 2]) < 0.0) ++turns;
   }
-  if (inside == 0 || static_cast<double>(equal) > scatters * static_cast<double>(inside)) return {};
+  const auto of_inside = [inside](double share) { return share * static_cast<double>(inside); };
+  if (inside == 0 || static_cast<double>(equal) > of_inside(scatters) ||
+      static_cast<double>(turns) < of_inside(turns_back))
+    return {};
   CutOff cut_off;
   const std::vector<double> was = values;
   for (const double end : {lowest, highest}) {

@@ -15,6 +15,7 @@ inline constexpr double pound_kg = 0.45359237;
 struct LookThresholds {
   std::size_t most_rows = 200'000;  ///< a few seconds' work: the thesis's campaign
   std::size_t most_rows_of_a_run = 20'000;
+  double most_s = 600.0;  ///< of a run: slow records last for hours
 };
 
 /// Columns. Slopes are of what was measured over what the rig would do.
@@ -106,6 +107,7 @@ struct PlausibleThresholds {
   double lifts_nothing_Pa = 0.15e5, moves_far = 0.02;
   double least_atmosphere_Pa = 0.95e5, most_atmosphere_Pa = 1.06e5;
   double rests = 3e-3, resting_share = 0.05;  ///< relative; of the rows
+  double lowest_share = 0.01;                 ///< of the rows: a run's lowest pressure but for noise
   double stays = 0.2;                         ///< of the readings that are on a grid
   double coarser = 2.0, coarsest = 0.05;      ///< steps of a reading: times the sensor's; contraction ratio
 };

@@ -1,12 +1,14 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <sim/domain/number.hpp>
 #include <sim/input/arranged.hpp>
+#include <sim/input/cells.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/suggest.hpp>
 
@@ -39,6 +41,14 @@ void take_rows(Table& table, const std::vector<std::size_t>& rows) {
   table.parts.clear();
 }
 
+/// 5 in "5 kg".
+std::optional<double> number_in(std::string_view label) {
+  Cell cell{label, 0};
+  std::string unit;
+  take_unit(cell, unit);
+  return parse_number(cell.text);
+}
+
 /// Whether a row holds these texts. Numbers are compared as such: 1 is 1.0.
 class Filter {
  public:
@@ -47,7 +57,7 @@ class Filter {
       if (const Table::Column* found = table.find(filter_name(of, column))) {
         std::vector<double> labels;
         for (const auto& [label, number] : found->labels)
-          if (label == text || (parse_number(text) && parse_number(label) == parse_number(text)))
+          if (label == text || (parse_number(text) && number_in(label) == parse_number(text)))
             labels.push_back(number);
         tests_.push_back({found, std::move(labels)});
       }

@@ -1,6 +1,7 @@
 // Cells and their numbers; see the header.
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -34,6 +35,69 @@ bool signs_fit(std::string_view digits) {
     if (const std::size_t next = std::min(digits.find_first_of(".,", at + 1), digits.size()); next - at != 4)
       return false;
   return true;
+}
+
+std::string lower(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return small;
+}
+
+void replace_all(std::string& text, std::string_view what, std::string_view with) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+    text.replace(at, what.size(), with);
+}
+
+/// 20 000, 20'000: groups of three digits, as with a point or a comma between them.
+std::string without_groups(const std::string& text) {
+  std::string digits = text;
+  for (const char* space : {"\xC2\xA0", "\xE2\x80\xAF", "\xE2\x80\x89", " "}) replace_all(digits, space, "'");
+  if (digits.find('\'') == std::string::npos) return text;
+  const std::size_t whole = std::min(digits.find_first_of(".,"), digits.size());
+  std::size_t group = 0;
+  bool fits = true;
+  for (std::size_t at = digits.front() == '-' ? 1 : 0; at < whole; ++at) {
+    const bool mark = digits[at] == '\'';
+    fits = fits &&
+           (mark ? group > 0 && group <= 3 && (group == 3 || digits.rfind('\'', at - 1) == std::string::npos)
+                 : is_number_digit(digits[at]));
+    group = mark ? 0 : group + 1;
+  }
+  if (!fits || group != 3 || digits.find('\'', whole) != std::string::npos) return text;
+  std::erase(digits, '\'');
+  return digits;
+}
+
+/// A number as it is read here, where a program writes another sign, no 0 before the point, D for E, 0x of
+/// counts, spaces between thousands, a spread or a remark behind it; none where it is plain, or no number.
+std::optional<std::string> respelt(std::string_view cell) {
+  const bool plain = cell.find_first_not_of("0123456789.,+-eE") == std::string_view::npos;
+  const std::size_t begin = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
+  const bool bare_point = begin + 1 < cell.size() && is_sign(cell[begin]) && is_number_digit(cell[begin + 1]);
+  if (cell.size() > longest_shown || (plain && !bare_point)) return std::nullopt;
+  std::string text(cell);
+  for (const char* end : {" #", "\t#", "\xC2\xB1", "+/-", "+-"})
+    if (const std::size_t at = text.find(end); at != std::string::npos && at > 0)
+      text = trimmed(std::string_view(text).substr(0, at));
+  for (const char* minus : {"\xE2\x88\x92", "\xE2\x80\x93"})
+    if (text.starts_with(minus)) text = "-" + text.substr(3);
+  if (text.empty()) return std::nullopt;
+  const std::size_t first = text[0] == '-' || text[0] == '+' ? 1 : 0;
+  if (first + 1 < text.size() && is_sign(text[first]) && is_number_digit(text[first + 1]))
+    text.insert(first, "0");
+  if (!is_number_digit(text[std::min(first, text.size() - 1)])) return std::nullopt;
+  if (text.starts_with("0x") || text.starts_with("0X")) {
+    std::uint64_t counts = 0;
+    const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), counts, 16);
+    if (error == std::errc{} && end == text.data() + text.size()) text = std::to_string(counts);
+  }
+  if (const std::size_t at = text.find_first_of("Dd");
+      at != std::string::npos && at + 1 < text.size() &&
+      text.find_first_not_of("0123456789+-", at + 1) == std::string::npos)
+    text[at] = 'E';
+  text = without_groups(text);
+  if (text == cell) return std::nullopt;
+  return text;
 }
 
 std::vector<Cell> split_at_blanks(std::string_view line) {
@@ -78,6 +142,8 @@ std::optional<double> in_thousands(std::string_view text) {
 
 bool is_number_like(std::string_view text) {
   if (text.empty()) return false;
+  const std::optional<std::string> other = respelt(text);
+  if (other) text = *other;
   std::string_view bare = text;
   if (bare.front() == '+' || bare.front() == '-') bare.remove_prefix(1);
   if (bare == "inf" || bare == "Inf" || bare == "INF") return true;
@@ -138,11 +204,49 @@ std::vector<Cell> split_cells(std::string_view line, char separator) {
 }
 
 bool is_missing(const Cell& cell) {
-  return cell.text.empty() || cell.text == "nan" || cell.text == "NaN" || cell.text == "NAN";
+  if (cell.text.empty()) return true;
+  static constexpr std::array<std::string_view, 29> none{
+      "nan",   "-nan", "nan(ind)",     "-nan(ind)",    "1.#qnan", "-1.#ind", "na",      "n/a",
+      "n.a.",  "#n/a", "#na",          "null",         "none",    "nil",     "missing", "-",
+      "--",    "---",  "\xE2\x80\x93", "\xE2\x80\x94", ".",       "?",       "#div/0!", "#value!",
+      "#num!", "ovld", "ol",           "overload",     "overflow"};
+  if (cell.text.size() > 9) return false;
+  if (cell.text.find_first_not_of('*') == std::string_view::npos) return true;
+  return is_number_digit(cell.text.back()) ? false : std::ranges::find(none, lower(cell.text)) != none.end();
+}
+
+bool take_unit(Cell& cell, std::string& unit) {
+  const std::string_view text = cell.text;
+  if (text.size() < 2 || is_number_digit(text.back()) ||
+      !(is_number_digit(text[0]) || is_number_digit(text[1])))
+    return true;
+  const std::size_t end = text.find_last_of("0123456789") + 1;
+  const std::string_view behind = trimmed(text.substr(end));
+  if (text.find_first_of(":/") != std::string_view::npos || behind.empty() || behind.front() == '.' ||
+      unit_word(behind).empty())
+    return true;
+  std::string number(text.substr(0, end));
+  std::replace(number.begin(), number.end(), ',', '.');
+  if (!parse_number(number)) return true;
+  if (!unit.empty() && unit != behind) return false;
+  unit = behind;
+  cell.text = text.substr(0, end);
+  return true;
 }
 
 std::optional<double> EpochReader::read(std::string_view name, const Cell& cell, NumberReader& numbers,
                                         std::string& problem) {
+  constexpr double whole = 4294967296.0, near_end = 0.9;  // of a counter of 32 bits: millis, micros
+  auto value = since_first(name, cell, numbers, problem);
+  if (!value) return value;
+  const double count = *value + static_cast<double>(first_);
+  if (last_ > near_end * whole && last_ < whole && count < (1.0 - near_end) * whole) wrapped_ += whole;
+  last_ = count;
+  return *value + wrapped_;
+}
+
+std::optional<double> EpochReader::since_first(std::string_view name, const Cell& cell, NumberReader& numbers,
+                                               std::string& problem) {
   constexpr std::size_t long_ago = 9;  // digits
   const std::string_view text = cell.text;
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
@@ -172,6 +276,7 @@ std::optional<double> EpochReader::read(std::string_view name, const Cell& cell,
 }
 
 std::optional<double> NumberReader::read(std::string_view name, const Cell& cell, std::string& problem) {
+  if (const auto other = respelt(cell.text)) return read(name, {*other, cell.offset}, problem);
   const std::string_view shown = cell.text.substr(0, longest_shown);
   problem.clear();
   if (cell.text.empty()) {

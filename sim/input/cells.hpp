@@ -19,8 +19,11 @@ struct Cell {
 /// stands for blanks, tabs and semicolons, in numbers without quotes. Empty if a quote is not closed.
 std::vector<Cell> split_cells(std::string_view line, char separator);
 
-/// Whether a cell says that there is no number: it is empty, or NaN.
+/// Whether a cell says that there is no number: it is empty, NaN, a dash, n/a, #DIV/0!, OVLD, ...
 bool is_missing(const Cell& cell);
+
+/// Takes the unit off a number, "0.4 bar". False where `unit`, if it is not empty, is another.
+bool take_unit(Cell& cell, std::string& unit);
 
 /// Whether a cell holds a number, perhaps with a unit behind it, or a stamp of date or time.
 bool is_number_like(std::string_view text);
@@ -41,7 +44,8 @@ class NumberReader {
 };
 
 /// Reads the stamps of one table. If the first is so large that it counts since 1970, or since the recorder
-/// was switched on long ago, all are read as those since the first, without losing a digit.
+/// was switched on long ago, all are read as those since the first, without losing a digit. A counter of 32
+/// bits that runs over goes on.
 class EpochReader {
  public:
   std::optional<double> read(std::string_view name, const Cell& cell, NumberReader& numbers,
@@ -50,7 +54,11 @@ class EpochReader {
   const std::optional<std::string>& taken_off() const { return first_text_; }
 
  private:
+  std::optional<double> since_first(std::string_view name, const Cell& cell, NumberReader& numbers,
+                                    std::string& problem);
+
   bool began_ = false;
+  double last_ = 0.0, wrapped_ = 0.0;
   std::int64_t first_ = 0;
   std::optional<std::string> first_text_;
 };

@@ -24,10 +24,20 @@ std::string unit_in(std::string_view heading, const Quantity& quantity) {
 
 }  // namespace
 
+bool is_hump(std::string_view text, std::size_t at) {
+  const auto lower = [&](std::size_t k) {
+    return k < text.size() && std::islower(static_cast<unsigned char>(text[k])) != 0;
+  };
+  return at > 1 && std::isupper(static_cast<unsigned char>(text[at])) != 0 && lower(at - 1) &&
+         lower(at - 2) && lower(at + 1);
+}
+
 Words words_of(std::string_view text) {
   Words words{""};
-  for (const char c : text) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
     const auto byte = static_cast<unsigned char>(c);
+    if (is_hump(text, at) && !words.back().empty()) words.emplace_back();
     if (byte >= 0x80 || std::isalnum(byte) != 0)
       words.back() += byte >= 0x80 ? c : static_cast<char>(std::tolower(byte));
     else if (!words.back().empty())

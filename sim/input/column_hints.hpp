@@ -10,6 +10,8 @@
 namespace mckibben::input {
 
 using Words = std::vector<std::string>;
+/// Where a word begins in the middle of one: timeSec.
+bool is_hump(std::string_view text, std::size_t at);
 /// Words of a heading, in lower case; bytes of UTF-8 stay as they are.
 Words words_of(std::string_view text);
 /// By which a heading says that its column is a clock.

@@ -98,11 +98,13 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
       continue;
     const std::string taken = place.absent() ? std::string(quantity.unit()) : place.unit;
     std::vector<double> one{1.0};
+    const bool of_mass = quantity.unit() == "N" && unit_problem(said, "kg").empty() && taken.ends_with('f');
     const bool fits = taken == said || unit_problem(said, taken).empty();
+    if (of_mass) continue;              // a load cell that shows kg
     if (in_heading && !fits) continue;  // it may be no unit at all
     if (taken == said || (fits && (convert_units(one, said, taken), one.front() == 1.0))) continue;
     const std::string what = fmt::format("{} says {}, and it is read in {}; ",
-                                         in_heading ? "its heading" : "the line above", said, taken);
+                                         in_heading ? "its heading" : "the table", said, taken);
     if (!problem_of(quantity, said).empty())
       problems.add(table, *column, 0,
                    fmt::format("{}write factor: how many {} are 1 {}, also if it is 1", what, taken, said));
@@ -111,7 +113,7 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
           table, *column, 0,
           fmt::format("{}write columns: {{{}}}, if {} is right{}", what,
                       line_of(quantity.key, {column->in_file, said, place.zero, place.factor}),
-                      in_heading ? "it" : "the line", in_heading ? ", or factor: 1 if it is not" : ""));
+                      in_heading ? "it" : "the table", in_heading ? ", or factor: 1 if it is not" : ""));
   }
 }
 

@@ -1,6 +1,9 @@
 // Reading of data sets; see the header.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -12,6 +15,7 @@
 #include <sim/input/file_names.hpp>
 #include <sim/input/run_file.hpp>
 #include <sim/input/stamped_run.hpp>
+#include <sim/input/thinned.hpp>
 #include <sim/input/utf8.hpp>
 #include <sim/input/yaml_reader.hpp>
 
@@ -92,6 +96,26 @@ bool check_columns(const YamlFile& file, Problems& problems) {
   return problems.errors() == before;
 }
 
+/// How tables were read; what several files share is said once.
+std::vector<std::string> remarks_of(const std::vector<Problem>& notes) {
+  constexpr std::size_t few = 3;
+  std::map<std::string, std::vector<const Problem*>> kinds;
+  for (const Problem& each : notes) {
+    std::string kind = each.message;
+    std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) != 0; });
+    kinds[kind].push_back(&each);
+  }
+  std::vector<std::string> remarks;
+  for (const auto& [kind, alike] : kinds)
+    for (const Problem* each : alike) {
+      const std::string more =
+          alike.size() > few ? fmt::format("; likewise in {} other places", alike.size() - 1) : "";
+      remarks.push_back(where(*each) + ": " + each->message + more);
+      if (!more.empty()) break;
+    }
+  return remarks;
+}
+
 }  // namespace
 
 Dataset read_dataset(const fs::path& path) {
@@ -111,16 +135,18 @@ Dataset read_dataset(Source source) {
   check_kind(file, dataset, problems);
   if (problems.errors() == 0) {
     check_runs(file, dataset, problems);
+    std::set<fs::path> files;
+    for (const Run& run : dataset.runs) files.insert((file.source.folder() / run.file).lexically_normal());
+    const std::uintmax_t together = bytes_of(std::move(files));
     if (check_columns(file, problems))
       for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
         const Node& node = file.root.find("runs")->children[i];
         if (check_commands(file, node, dataset, dataset.runs[i], problems))
-          read_run_file(file, node, dataset, dataset.runs[i], problems);
+          read_run_file(file, node, dataset, dataset.runs[i], together, problems);
       }
   }
   problems.raise();
-  for (const Problem& each : problems.warnings())
-    dataset.remarks.push_back(where(each) + ": " + each.message);
+  dataset.remarks = remarks_of(problems.warnings());
   dataset.inputs = problems.inputs();
   return dataset;
 }

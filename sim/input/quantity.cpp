@@ -96,22 +96,63 @@ bool spelt_like_a_unit(std::string_view text) {
   return !text.empty();
 }
 
+/// Without what says that a pressure is one above the atmosphere or absolute: kPa abs, psi(g), bar_rel.
+std::string_view without_reference(std::string_view text) {
+  constexpr std::array<std::string_view, 9> pressures{"psi", "pa",   "hpa", "kpa", "mpa",
+                                                      "bar", "mbar", "atm", "inhg"};
+  constexpr std::array<std::string_view, 11> references{"g",        "gauge",    "gage",    "rel",
+                                                        "relative", "relativ",  "abs",     "absolute",
+                                                        "absolut",  "\xC3\xBC", "\xC3\x9C"};
+  const std::size_t end = text.find_first_of(" (_[");
+  if (end == std::string_view::npos) return text;
+  const auto letters = [](std::string_view part) {
+    std::string lower;
+    for (const char c : part)
+      if (std::string_view(" ()[]_.").find(c) == std::string_view::npos)
+        lower += static_cast<char>((c & 0x80) != 0 ? c : std::tolower(static_cast<unsigned char>(c)));
+    return lower;
+  };
+  const std::string unit = letters(text.substr(0, end)), reference = letters(text.substr(end));
+  const bool is_reference = reference == "a" || std::ranges::find(references, reference) != references.end();
+  return is_reference && std::ranges::find(pressures, unit) != pressures.end() ? text.substr(0, end) : text;
+}
+
 /// Spellings that headings have and UDUNITS has not; gauge or absolute is not the unit's business.
 std::string_view known_as(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> spellings{{{"psi", "psi"},
-                                                                                     {"psig", "psi"},
-                                                                                     {"psia", "psi"},
-                                                                                     {"barg", "bar"},
-                                                                                     {"bara", "bar"},
-                                                                                     {"kpa", "kPa"},
-                                                                                     {"lbf", "lbf"},
-                                                                                     {"lbs", "lb"},
-                                                                                     {"deg", "deg"},
-                                                                                     {"mm", "mm"},
-                                                                                     {"kn", "kN"}}};
+  text = without_reference(text);
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 28> spellings{
+      {{"ms", "ms"},
+       {"us", "us"},
+       {"s", "s"},
+       {"sec", "sec"},
+       {"ma", "mA"},
+       {"cm", "cm"},
+       {"mbar", "mbar"},
+       {"hpa", "hPa"},
+       {"psi", "psi"},
+       {"kpag", "kPa"},
+       {"kpaa", "kPa"},
+       {"kg/cm2", "kgf/cm2"},
+       {"kg/cm\xC2\xB2", "kgf/cm2"},
+       {"kg/cm^2", "kgf/cm2"},
+       {"lb/in2", "psi"},
+       {"lb/in^2", "psi"},
+       {"lbs/in2", "psi"},
+       {"thou", "mil"},
+       {"psig", "psi"},
+       {"psia", "psi"},
+       {"barg", "bar"},
+       {"bara", "bar"},
+       {"kpa", "kPa"},
+       {"lbf", "lbf"},
+       {"lbs", "lb"},
+       {"deg", "deg"},
+       {"mm", "mm"},
+       {"kn", "kN"}}};
   for (const auto& [lower, unit] : spellings)
-    if (std::ranges::equal(text, lower, {},
-                           [](char c) { return std::tolower(static_cast<unsigned char>(c)); }))
+    if (std::ranges::equal(text, lower, {}, [](char c) {
+          return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        }))
       return unit;
   return text;
 }
@@ -133,7 +174,7 @@ enum class Fit { fits, unknown, wrong };
 /// Converts the values if the units fit.
 Fit convert(std::span<double> values, std::string_view from, std::string_view to) {
   if (from == to) return Fit::fits;
-  if (!spelt_like_a_unit(from)) return Fit::unknown;
+  if (!spelt_like_a_unit(without_reference(from))) return Fit::unknown;
   const InUdunits here;
   const Unit given = parse_unit(from);
   if (!given) return Fit::unknown;

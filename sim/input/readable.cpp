@@ -9,9 +9,11 @@
 
 #include <sim/formats/sheet.hpp>
 #include <sim/formats/table.hpp>
+#include <sim/input/as_columns.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/readable.hpp>
+#include <sim/input/readers.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/thinned.hpp>
 
@@ -22,6 +24,8 @@ namespace {
 struct Unread {
   std::string_view begin, what;
 };
+constexpr std::string_view html =
+    "this is HTML or XML, whatever its ending; open it in a spreadsheet and save it as .xlsx or CSV";
 constexpr std::array unread{
     Unread{"PAR1",
            "this is Parquet; write it as CSV: pandas.read_parquet(FILE).to_csv(\"run.csv\", index=False)"},
@@ -31,6 +35,11 @@ constexpr std::array unread{
     Unread{"SQLite format 3", "this is an SQLite database (a ROS 2 bag?); write its table or topic as CSV"},
     Unread{"%PDF", "this is a PDF; the table is needed as CSV"},
     Unread{"{\\rtf", "this is RTF; save it as plain text"},
+    Unread{"<html", html},
+    Unread{"<HTML", html},
+    Unread{"<!DOCTYPE", html},
+    Unread{"<table", html},
+    Unread{"<?xml", html},
 };
 
 void append_utf8(std::string& text, unsigned code) {
@@ -152,11 +161,13 @@ Source as_text(Source source, const std::filesystem::path& path) {
     if (text != source.text()) source.replace_text(std::move(text));
   }
   if (source.text().find('\0') == std::string::npos && source.first_bad_byte()) source.reread_as_latin1();
+  if (format_of(path.string(), source.text()) == Format::text)
+    if (auto columns = as_columns(source)) return std::move(*columns);
   return source;
 }
 
-Source loaded(const std::filesystem::path& path) {
-  if (auto thinned = load_thinned(path)) return std::move(*thinned);
+Source loaded(const std::filesystem::path& path, std::uintmax_t together) {
+  if (auto thinned = load_thinned(path, together)) return std::move(*thinned);
   Source source = Source::load(path, most_text_bytes);
   if (source.text().size() > most_text_bytes)
     refuse(path, fmt::format("larger than {} MB; save parts of it, or as CSV", most_text_bytes >> 20U));
@@ -165,8 +176,8 @@ Source loaded(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<LoadedSheet> load_tables(const std::filesystem::path& path) {
-  Source source = loaded(path);
+std::vector<LoadedSheet> load_tables(const std::filesystem::path& path, std::uintmax_t together) {
+  Source source = loaded(path, together);
   if (!has_sheets(source.text())) return {{"", as_text(std::move(source), path)}};
   std::vector<LoadedSheet> all;
   for (formats::Sheet& sheet : sheets_of(path, source.text())) {
@@ -176,8 +187,8 @@ std::vector<LoadedSheet> load_tables(const std::filesystem::path& path) {
   return all;
 }
 
-Source load_table(const std::filesystem::path& path, const std::string& sheet) {
-  Source source = loaded(path);
+Source load_table(const std::filesystem::path& path, const std::string& sheet, std::uintmax_t together) {
+  Source source = loaded(path, together);
   if (!has_sheets(source.text())) return as_text(std::move(source), path);
   source.replace_text(text_of_sheet(path, source.text(), sheet));
   return source;

@@ -132,7 +132,7 @@ void read_table_of(const Source& source, const ColumnMap& map, const Dataset& da
 }  // namespace
 
 void read_run_file(const YamlFile& file, const Node& node, const Dataset& dataset, Run& run,
-                   Problems& problems) {
+                   std::uintmax_t together, Problems& problems) {
   const Place place = node.find("file")->place;
   const ColumnMap map = merged(dataset.columns, run.columns);
   const auto says_factor = [&](std::string_view quantity) {
@@ -143,7 +143,9 @@ void read_run_file(const YamlFile& file, const Node& node, const Dataset& datase
   };
   try {
     const fs::path file_of_run = (file.source.folder() / run.file).lexically_normal();
-    read_table_of(load_table(file_of_run, run.sheet), map, dataset, run, says_factor, problems);
+    const bool all_rows = needs_all_rows(map, dataset, run);
+    read_table_of(load_table(file_of_run, run.sheet, all_rows ? 0 : together), map, dataset, run, says_factor,
+                  problems);
   } catch (const MissingInput& missing) {
     problems.missing_file(file.source, place, missing.what());
   } catch (const BadInput& bad) {

@@ -114,7 +114,8 @@ class Assembling {
       problems_.add(table_, *column, k,
                     fmt::format("time_s = {} {}: stamps must ascend{}", domain::write_number(now_s),
                                 now_s == before_s ? "is repeated" : "runs backwards",
-                                now_s == before_s ? "; take out the row that is there twice" : ""));
+                                now_s == before_s ? "; take out the row that is there twice"
+                                                  : "; are the newest rows first? Then sort them by time"));
       return;  // all later rows would repeat it
     }
   }

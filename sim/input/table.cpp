@@ -102,9 +102,15 @@ void check_ticks_of(const Table& table, const Table::Column& column, double tick
       what = "runs backwards";
     else if (step_s > 1.5 * tick_s)
       what = "comes after a gap";
-    problems.add(table, column, k,
-                 fmt::format("time_s = {} {}: expected is {:.6g}{}", write_number(time_s[k]), what,
-                             expected_s, what == unlike ? way_out : ""));
+    const std::string around =
+        fmt::format("; the run could end before it, to: {} s, or begin after it, from: {} s",
+                    write_number(time_s[k - std::min<std::size_t>(k, 1)]), write_number(time_s[k]));
+    problems.add(
+        table, column, k,
+        fmt::format("time_s = {} {}: expected is {:.6g}{}", write_number(time_s[k]), what, expected_s,
+                    what == unlike          ? way_out
+                    : what.ends_with("gap") ? around
+                                            : ""));
     return;
   }
 }

@@ -47,7 +47,9 @@ Block longest_block(const Source& source, char separator, std::size_t from) {
     const std::vector<Cell> cells = split_cells(text, separator);
     const Numbers found = numbers_in(cells);
     if (!found.is_row()) {
-      close();
+      // A word between rows that is in no cell is a remark, as kind_of has it.
+      const bool apart = separator != ' ' && text.find(separator) == std::string_view::npos;
+      if (!apart || now.raw < 2) close();
       continue;
     }
     if (now.rows > 0 && cells.size() != now.raw) close();
@@ -64,7 +66,9 @@ Block longest_block(const Source& source, char separator, std::size_t from) {
 }  // namespace
 
 bool is_blank(std::string_view line) {
-  return line.find_first_not_of(" \t,;\"\r") == std::string_view::npos;
+  if (line.find_first_not_of(" \t,;|\"\r") == std::string_view::npos) return true;
+  return line.find_first_not_of("-=+|: \t\r") == std::string_view::npos &&
+         (line.find("---") != std::string_view::npos || line.find("===") != std::string_view::npos);
 }
 
 /// `#`, `%` or `//` before a heading or a remark.

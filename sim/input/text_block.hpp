@@ -13,9 +13,9 @@
 namespace mckibben::input {
 
 /// What may stand between cells; a blank stands for any number of blanks.
-inline constexpr std::string_view separators = "\t;, ";
+inline constexpr std::string_view separators = "\t;,| ";
 
-/// Nothing but separators.
+/// Nothing but separators, or a line that is ruled.
 bool is_blank(std::string_view line);
 /// `#`, `%` or `//` before a heading or a remark; and what stands behind.
 bool is_marked(std::string_view line);

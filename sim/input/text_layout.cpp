@@ -233,6 +233,28 @@ void begin_with_the_first(const Source& source, const Block& block, std::size_t 
   }
 }
 
+/// Sums and the like below the last row: a word where rows have their first number.
+void leave_out_footer(const Source& source, std::size_t some_row, TextLayout& layout) {
+  constexpr std::size_t most_below = 20;
+  const auto first_of = [&](std::size_t line) {
+    const std::vector<Cell> cells = split_cells(source.line(line), layout.separator);
+    return cells.empty() ? std::string_view() : cells.front().text;
+  };
+  if (layout.headings.size() < 2 || !is_number_like(first_of(some_row))) return;
+  const auto is_word = [](std::string_view text) {
+    return text.size() > 1 && std::ranges::all_of(text, [](unsigned char c) {
+             return std::isalpha(c) != 0 || c >= 0x80 || c == ' ' || c == '.' || c == ':';
+           });
+  };
+  const std::size_t last = layout.last_row;
+  for (std::size_t line = last; line > some_row && line + most_below > last; --line) {
+    if (is_blank(source.line(line))) continue;
+    if (!is_word(first_of(line)) || is_missing({first_of(line), 0})) break;
+    layout.footer = line;
+    layout.last_row = line - 1;
+  }
+}
+
 }  // namespace
 
 std::vector<Cell> row_cells(const Source& source, const TextLayout& layout, std::size_t line) {
@@ -317,6 +339,7 @@ TextLayout layout_of(const Source& source, std::span<const WantedColumn> wanted)
     if (says && head.line > layout.heading) layout.first_row = head.line + 1;
   }
   begin_with_the_first(source, block, from, layout);
+  leave_out_footer(source, block.first, layout);
   if (layout.head > from && !is_marked(source.line(layout.head - 1))) {
     const Numbers above = numbers_in(split_cells(source.line(layout.head - 1), layout.separator));
     if (above.cells > 1 && above.numbers == above.cells) layout.unread = layout.head - 1;

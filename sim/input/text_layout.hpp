@@ -25,6 +25,8 @@ struct TextLayout {
   std::vector<std::string> units;           ///< as many, without brackets; empty where no line says any
   std::string problem;                      ///< why headings and rows do not belong together; empty: they do
   std::size_t problem_line = 0;
+  std::size_t footer =
+      0;  ///< the first of some lines below the table that begin with a word; 0: there are none
   std::size_t unread = 0;  ///< a line of numbers right above the table that is no row of it; 0: there is none
 };
 

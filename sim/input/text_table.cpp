@@ -67,7 +67,12 @@ class ColumnReader {
   }
 
  private:
-  std::optional<double> number(const Cell& cell, std::string& problem) {
+  std::optional<double> number(Cell cell, std::string& problem) {
+    if (column_.kind != CellKind::date && column_.kind != CellKind::label && !take_unit(cell, column_.unit)) {
+      problem =
+          fmt::format("{} is not in {}, as those above are, or their heading says", cell.text, column_.unit);
+      return std::nullopt;
+    }
     switch (column_.kind) {
       case CellKind::date:
         return clock_.read(column_.in_file, cell, problem);
@@ -161,9 +166,9 @@ void check_clocks(const Source& source, const TextLayout& layout, const Table& t
 std::string note_of_thinned(const Source& source) {
   if (source.thinned().step == 1) return "";
   return fmt::format(
-      "{} lines are more than are read at once: every {}th is; for all rows of a part, put it into a file of "
-      "its "
-      "own",
+      "{} lines, with those of the other files, are more than are read at once: 1 in {} is read; for all "
+      "rows "
+      "of a part, put it into a data set of its own",
       source.thinned().lines, source.thinned().step);
 }
 
@@ -183,6 +188,9 @@ Table read_text(const Source& source, std::span<const WantedColumn> wanted, Tabl
     problems.note({layout.unread, 1},
                   fmt::format("this line is not read: it has other cells than the {} of the rows below",
                               layout.headings.size()));
+  if (layout.footer > 0)
+    problems.note({layout.footer, 1},
+                  "this line and those below begin with a word, where rows have a number: not read");
   NumberReader numbers('\0');
   EpochReader epoch;
   std::vector<ColumnReader> readers;

@@ -34,6 +34,16 @@ bool begins_with_word(std::string_view line) {
          (std::isalpha(static_cast<unsigned char>(line[at])) != 0 || line[at] == '#' || line[at] == '%');
 }
 
+/// Where sensors take turns from line to line, a prime step keeps lines of each.
+std::size_t next_prime(std::size_t number) {
+  const auto divides = [&](std::size_t by) { return number % by == 0; };
+  for (;; ++number) {
+    bool prime = number > 1;
+    for (std::size_t by = 2; by * by <= number && prime; ++by) prime = !divides(by);
+    if (prime) return number;
+  }
+}
+
 /// Which lines are kept, as they come.
 class Keeping {
  public:
@@ -59,10 +69,24 @@ class Keeping {
 
 }  // namespace
 
-std::optional<Source> load_thinned(const std::filesystem::path& path) {
+std::uintmax_t bytes_of(std::set<std::filesystem::path> files) {
+  std::uintmax_t all = 0;
+  for (const std::filesystem::path& file : files) {
+    std::error_code failed;
+    const auto bytes = std::filesystem::file_size(file, failed);
+    all += failed ? 0 : bytes;
+  }
+  return all;
+}
+
+std::optional<Source> load_thinned(const std::filesystem::path& path, std::uintmax_t together) {
   std::error_code failed;
   const auto bytes = std::filesystem::file_size(path, failed);
-  if (failed || bytes < least_bytes) return std::nullopt;
+  if (failed || std::max(bytes, together) < least_bytes) return std::nullopt;
+  const double share = static_cast<double>(bytes) / static_cast<double>(std::max(bytes, together));
+  const auto of = [share](std::size_t limit) {
+    return std::max<std::size_t>(1, static_cast<std::size_t>(share * static_cast<double>(limit)));
+  };
   std::size_t lines = 0;
   bool text = true;
   each_block(path, [&](std::string_view block) {
@@ -70,8 +94,10 @@ std::optional<Source> load_thinned(const std::filesystem::path& path) {
     lines += static_cast<std::size_t>(std::ranges::count(block, '\n'));
     return text;
   });
-  if (!text || lines < whole_lines || (bytes <= most_text_bytes && lines <= most_rows)) return std::nullopt;
-  Keeping keeping(1 + std::max(static_cast<std::size_t>(bytes) / most_kept_bytes, lines / most_kept));
+  if (!text || lines < whole_lines || (bytes <= of(most_text_bytes) && lines <= of(most_rows)))
+    return std::nullopt;
+  Keeping keeping(
+      next_prime(1 + std::max(static_cast<std::size_t>(bytes) / of(most_kept_bytes), lines / of(most_kept))));
   Sha256 digest;
   std::string rest;
   bool short_lines = true;

@@ -155,7 +155,7 @@ std::string table_of(const Recognised& found, const std::string& where) {
   const std::size_t open = found.open();
   text += open > 0 ? fmt::format("\n{} value{} to be filled in (FILL_IN) in {}; then: mckibben check {}\n",
                                  open, open == 1 ? " is" : "s are", where, where)
-                   : fmt::format("\nNothing is left open; to go on: mckibben check {}\n", where);
+                   : fmt::format("\nAll values are known; next: mckibben check {}\n", where);
   return text;
 }
 

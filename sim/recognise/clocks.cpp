@@ -25,8 +25,9 @@ bool are_intervals(const Values& values) {
     if (!sorted.empty() && value <= sorted.back()) ++falls;
     sorted.push_back(value);
   }
+  constexpr double no_interval = 1e8;  // stamps that have lost their digits
   const bool ascend = std::ranges::is_sorted(sorted) && sorted.front() != sorted.back();
-  if (sorted.size() < 3 || ascend || 5 * falls < sorted.size()) return false;
+  if (sorted.size() < 3 || ascend || 5 * falls < sorted.size() || sorted.front() > no_interval) return false;
   std::ranges::sort(sorted);
   constexpr double alike = 5.0;
   const std::size_t n = sorted.size();
@@ -36,6 +37,7 @@ bool are_intervals(const Values& values) {
 
 /// The unit in which a stamp of so many digits counts since 1970.
 std::string unit_of_epoch(const std::string& first) {
+  if (first.empty() || first.front() > '2') return "";  // beyond 2064: a counter
   switch (std::min(first.find_first_not_of("0123456789"), first.size())) {
     case 10:
       return "s";
@@ -53,10 +55,12 @@ std::string unit_of_epoch(const std::string& first) {
 /// Clocks that say the same, such as a stamp and the time at which its message came.
 bool alike(const Values& a, const Values& b) {
   const double whole_a = a.back() - a.front(), whole_b = b.back() - b.front();
-  return whole_a > 0.0 && std::abs(whole_b / whole_a - 1.0) < 1e-3 && std::isfinite(whole_b);
+  if (!(whole_a > 0.0) || !(whole_b > 0.0) || !std::isfinite(whole_b / whole_a)) return false;
+  const double in_another_unit = std::pow(1000.0, std::round(std::log10(whole_b / whole_a) / 3.0));
+  return std::abs(whole_b / whole_a / in_another_unit - 1.0) < 1e-3;
 }
 
-Told unit_of(const UnknownColumn& column, const Heading& heading) {
+Told unit_of(const UnknownColumn& column, const Heading& heading, const SaidStep& said) {
   if (column.is_date) return {std::string(input::date_unit), "it holds dates"};
   const std::string unit = unit_of_epoch(column.epoch);
   if (heading.unit_fits && (unit.empty() || unit == heading.unit))
@@ -66,13 +70,21 @@ Told unit_of(const UnknownColumn& column, const Heading& heading) {
                                  column.epoch, unit));
   if (!unit.empty()) return {unit, fmt::format("{} counts {} since 1970", column.epoch, unit)};
   const Clock clock = clock_of(column.values);
+  if (said.step_s > 0.0 && std::abs(clock.step_s / said.step_s - 1.0) < 1e-3)
+    return {"s", fmt::format("its rows are {:.6g} apart, and {}", clock.step_s, said.reason)};
   return left_open(
-      fmt::format("the table says no unit; rows are {:.6g} of it apart: s, ms, us?", clock.step_s));
+      fmt::format("the table says no unit; rows are {:.6g} of it apart: s, ms, us{}?", clock.step_s,
+                  clock.step_s < 1e-3 && clock.begin_s > 1e4 ? ", or d, as Excel counts days" : ""));
 }
 
-ColumnGuess guess_of_time(const UnknownColumn& column, const Heading& heading) {
-  ColumnGuess guess{
-      &domain::quantity_of("time"), {column.name, heading.reason}, unit_of(column, heading), {}, {}, {}, {}};
+ColumnGuess guess_of_time(const UnknownColumn& column, const Heading& heading, const SaidStep& said) {
+  ColumnGuess guess{&domain::quantity_of("time"),
+                    {column.name, heading.reason},
+                    unit_of(column, heading, said),
+                    {},
+                    {},
+                    {},
+                    {}};
   if (!column.is_date && are_intervals(column.values))
     guess.input = Told{"interval", "its numbers are alike and do not ascend: the time since the row before"};
   return guess;
@@ -111,7 +123,7 @@ TimeGuess time_of(const UnknownTable& table) {
       candidates.emplace_back(&column, std::move(heading));
   const auto numbers = std::ranges::find_if(table.columns, [&](const UnknownColumn& column) {
     return (counts_rows(column.values) || counts_again(column.values)) &&
-           (!table.has_headings || names_rows(column.name));
+           (!table.has_headings || names_rows(column.heading()));
   });
   if (candidates.empty() && numbers != table.columns.end()) {
     const SaidStep said = said_step(table);
@@ -133,9 +145,24 @@ TimeGuess time_of(const UnknownTable& table) {
                               {}};
     return found;
   }
-  if (candidates.empty() && !table.has_headings)
+  for (const UnknownColumn& column : table.texts)
+    if (const Heading heading = heading_of(column);
+        candidates.empty() && heading.quantity != nullptr && heading.quantity->key == "time") {
+      found.guess = ColumnGuess{&domain::quantity_of("time"),
+                                left_open(fmt::format("{} holds what is read as no number, such as {}",
+                                                      column.name, column.texts.front())),
+                                left_open("it goes with the column"),
+                                {},
+                                {},
+                                {},
+                                {}};
+      return found;
+    }
+  if (candidates.empty())
     for (const UnknownColumn& column : table.columns)
-      if (const Clock clock = clock_of(column.values); clock.ascends && clock.step_s > 0.0) {
+      if (const Clock clock = clock_of(column.values);
+          clock.ascends && clock.step_s > 0.0 &&
+          (!table.has_headings || heading_of(column).reason == no_word)) {
         candidates.push_back({&column, {nullptr, "", false, "it ascends from row to row (perhaps)"}});
         break;
       }
@@ -143,7 +170,7 @@ TimeGuess time_of(const UnknownTable& table) {
   const UnknownColumn* first = candidates.front().first;
   const bool same = std::ranges::all_of(
       candidates, [&](const auto& one) { return alike(first->values, one.first->values); });
-  found.guess = guess_of_time(*first, candidates.front().second);
+  found.guess = guess_of_time(*first, candidates.front().second, said_step(table));
   if (candidates.size() == 1) return found;
   if (same) {
     found.guess->column.reason += "; the other columns of time say the same";

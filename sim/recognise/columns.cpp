@@ -46,7 +46,11 @@ ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const N
     }
     names.push_back(each->column->where.empty() ? each->column->name : "where: " + each->column->where);
   }
-  const std::string why = !names.empty()   ? fmt::format("it may be any of: {}", fmt::join(names, "; "))
+  const bool two = names.size() == 2 && quantity.key == "muscle_pressure";
+  const std::string why = !names.empty()   ? fmt::format("it may be any of: {}{}", fmt::join(names, "; "),
+                                                       two ? "; of two muscles write muscle_pressure_1 and "
+                                                               "muscle_pressure_2, and angle"
+                                                             : "")
                           : others.empty() ? "no column seems to hold it"
                                            : "no heading names it; perhaps one of: " + others;
   return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}, {}};
@@ -113,7 +117,12 @@ constexpr double atmosphere_kPa = 101.325, least_atmosphere_kPa = 95.0, most_atm
 
 /// Gauge or absolute: by its words, else asked where it rests near one atmosphere.
 void zero_of_pressure(ColumnGuess& pressure, const std::vector<const UnknownTable*>& tables) {
-  if (pressure.column.open() || pressure.unit.open()) return;
+  if (pressure.column.open()) return;
+  if (pressure.unit.open()) {
+    if (is_absolute(pressure.column.value))
+      pressure.zero = left_open("its heading says absolute: what its gauge reads in open air, in its unit");
+    return;
+  }
   double lowest = 1e300;
   for (const UnknownTable* table : tables)
     if (const Values* values = column_of(*table, pressure.column.value))
@@ -144,6 +153,13 @@ const UnknownColumn* scaled_of(const UnknownColumn& raw, const std::vector<Named
   return nullptr;
 }
 
+/// A command that is on or off.
+bool is_switch(const Named& of) {
+  return of.heading.quantity != nullptr && of.heading.quantity->is_command() && of.heading.unit.empty() &&
+         std::ranges::all_of(of.column->values,
+                             [](double value) { return value == 0.0 || value == 1.0 || std::isnan(value); });
+}
+
 /// Row numbers and raw readings are nothing that is compared.
 void leave_out_others(const TimeGuess& time, std::vector<Named>& named) {
   for (Named& each : named) {
@@ -151,6 +167,8 @@ void leave_out_others(const TimeGuess& time, std::vector<Named>& named) {
     if (each.column == time.row_numbers || (time.guess && each.column->name == time.guess->column.value) ||
         (names_rows(each.column->name) && counts_rows(each.column->values)))
       each.heading = {nullptr, "", false, "it counts the rows"};
+    else if (is_switch(each))
+      each.heading = {nullptr, "", false, "it holds 0 and 1 alone: a valve that is on or off"};
     else if (const UnknownColumn* scaled = scaled_of(*each.column, named))
       each.heading = {nullptr, "", false, fmt::format("the raw reading of {}", scaled->name)};
   }
@@ -290,6 +308,10 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_know
           {each.column->name, fmt::format("{}; {}", each.heading.reason, range_in_words(each))});
   for (ColumnGuess& guess : map.columns)
     if (guess.quantity->key != "time") say_rows(table, guess);
+  for (const ColumnGuess& guess : map.columns)
+    if (const UnknownColumn* column = table.find(guess.column.value);
+        column != nullptr && !column->odd.empty())
+      map.remarks.push_back(fmt::format("{}: {}", column->name, column->odd));
   for (const std::string& words : table.words)
     map.ignored.push_back({words, "it holds no numbers, or not one for each row"});
   if (candidates("command").empty())

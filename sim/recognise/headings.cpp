@@ -1,6 +1,7 @@
 // Words of headings; see the header.
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <regex>
 #include <vector>
 
@@ -39,15 +40,59 @@ struct Vocabulary {
 const std::vector<Vocabulary>& vocabularies() {
   static const std::vector<Vocabulary> all{
       {"",
-       {"supply", "tank",  "versorgung", "speise", "ambient", "temperature", "temperatur",
-        "temp",   "index", "error",      "err",    "fehler",  "pwm",         "status",
-        "flag",   "kp",    "ki",         "kd",     "seq",     "battery",     "humidity"},
-       {"versorgung", "speise", "umgebung", "temperatur"}},
+       {"supply",
+        "tank",
+        "versorgung",
+        "speise",
+        "ambient",
+        "temperature",
+        "temperatur",
+        "temp",
+        "index",
+        "error",
+        "err",
+        "fehler",
+        "pwm",
+        "status",
+        "flag",
+        "kp",
+        "ki",
+        "kd",
+        "seq",
+        "battery",
+        "humidity",
+        "std",
+        "stdev",
+        "stddev",
+        "sd",
+        "sigma",
+        "sem",
+        "uncertainty",
+        "model",
+        "modelled",
+        "simulated",
+        "predicted",
+        "fit",
+        "fitted",
+        "theory",
+        "theoretical",
+        "rate",
+        "velocity",
+        "speed",
+        "acceleration",
+        "derivative",
+        "geschwindigkeit",
+        "beschleunigung",
+        "power",
+        "energy",
+        "degc",
+        "celsius"},
+       {"versorgung", "speise", "umgebung", "temperatur", "geschwindigkeit"}},
       {"command",
-       {"set",  "setpoint", "soll",    "sollwert", "ref",        "reference",    "command",
-        "cmd",  "demand",   "desired", "target",   "stellgröße", "stellgroesse", "consigne",
-        "ao0",  "ao1",      "dac",     "pd",       "pdes",       "pset",         "psoll",
-        "pref", "sp",       "goal",    "vorgabe",  "commanded",  "wanted"},
+       {"set",      "setpoint", "soll",    "sollwert", "ref",     "reference",  "command",
+        "cmd",      "demand",   "desired", "des",      "target",  "stellgröße", "stellgroesse",
+        "consigne", "ao0",      "ao1",     "dac",      "pd",      "pdes",       "pset",
+        "psoll",    "pref",     "sp",      "goal",     "vorgabe", "commanded",  "wanted"},
        {"soll", "stell"}},
       {"time", input::time_words, {"zeit"}},
       {"force", {"f", "force", "kraft", "loadcell", "cell", "tension", "zugkraft"}, {"kraft"}},
@@ -72,16 +117,43 @@ const std::vector<Vocabulary>& vocabularies() {
 struct Split {
   std::string_view before, behind;
   bool in_brackets = false;
+  bool last = true;  ///< nothing stands behind it
 };
 Split split_unit(std::string_view name) {
   if (name.ends_with(']') || name.ends_with(')')) {
-    const std::size_t open = name.find_last_of("[(");
-    if (open != std::string_view::npos && open > 0)
+    std::size_t open = name.size(), depth = 0;  // brackets may stand in brackets: [kPa(a)]
+    do {
+      --open;
+      if (name[open] == ']' || name[open] == ')') ++depth;
+      if (name[open] == '[' || name[open] == '(') --depth;
+    } while (open > 0 && depth > 0);
+    if (depth == 0 && open > 0)
       return {name.substr(0, open), name.substr(open + 1, name.size() - open - 2), true};
   }
-  const std::size_t at = name.find_last_of("_ /");
-  if (at == std::string_view::npos || at == 0) return {name, {}, false};
-  return {name.substr(0, at), name.substr(at + 1), false};
+  constexpr std::string_view apart = "_ /";
+  const std::size_t at = name.find_last_of(apart);
+  if (at == std::string_view::npos || at == 0) {
+    for (std::size_t hump = name.size(); hump-- > 1;)
+      if (input::is_hump(name, hump)) return {name.substr(0, hump), name.substr(hump), false};
+    return {name, {}, false};
+  }
+  const Split last{name.substr(0, at), name.substr(at + 1), false};
+  if (!input::unit_word(last.behind).empty()) return last;
+  // p_kPa_abs, p_bar_mean: one letter there is a name.
+  const std::size_t before = last.before.find_last_of(apart);
+  if (before == std::string_view::npos || before == 0) return last;
+  const std::string_view unit = name.substr(before + 1, at - before - 1), whole = name.substr(before + 1);
+  if (!input::unit_word(whole).empty()) return {name.substr(0, before), whole, false};
+  if (unit.size() < 2 || unit == "in" || unit == "min" || input::unit_word(unit).empty()) return last;
+  return {name.substr(0, before), unit, false, false};
+}
+
+/// A unit as it is written within a name: Sec, Psi.
+std::string unit_of_part(std::string_view part) {
+  std::string lower(part);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (lower == "bar" || lower == "mbar" || lower == "sec" || lower == "deg" || lower == "rad") return lower;
+  return input::unit_word(part);
 }
 
 bool is_unit_of(std::string_view key, std::string_view unit) {
@@ -123,6 +195,21 @@ std::string unit_of_time_word(const Words& words) {
   return "";
 }
 
+/// A command word beside a position or a force.
+bool is_target_of_another(std::string_view unit, const Words& words) {
+  if (!unit.empty() && (is_unit_of("contraction", unit) || is_unit_of("force", unit))) return unit != "1";
+  if (!unit.empty()) return false;
+  return std::ranges::any_of(vocabularies(), [&](const Vocabulary& each) {
+    return (each.key == "contraction" || each.key == "force") && !each.told_by(words).empty();
+  });
+}
+
+/// What a load cell that shows a mass has as its unit of force.
+std::string force_of_mass(const std::string& unit) {
+  if (unit == "kg" || unit == "g") return unit + "f";
+  return unit == "lb" || unit == "lbs" ? "lbf" : unit;
+}
+
 /// How far what a heading says can be trusted.
 std::string_view trust(bool by_word, bool by_unit) {
   return by_word && by_unit ? "sure" : by_word ? "likely" : "perhaps";
@@ -147,7 +234,8 @@ bool begins_with_word(const std::string& name, List said) {
 }  // namespace
 
 bool is_absolute(const std::string& name) {
-  return has_word(name, {"abs", "absolute", "absolut", "absolu", "pabs", "psia", "bara"});
+  return has_word(name, {"abs", "absolute", "absolut", "absolu", "pabs", "psia", "bara", "kpaa", "mbara"}) ||
+         name.ends_with("(a)") || name.ends_with("(a)]") || name.ends_with("(a))");
 }
 
 bool names_a_run(const std::string& name) {
@@ -176,7 +264,9 @@ bool names_a_key(const std::string& name) {
 
 bool names_rows(const std::string& name) {
   const Words words = words_of(name);
-  return words.empty() || words.back() == "seq" ||
+  const bool no_heading =
+      words.size() == 1 && words.front().find_first_not_of("0123456789") == std::string::npos;
+  return words.empty() || no_heading || words.back() == "seq" ||
          begins_with_word(name, {"x", "index", "sample", "samples", "n", "nr", "no", "frame", "count", "tick",
                                  "counter", "seq", "row", "i", "point", "id"});
 }
@@ -193,7 +283,7 @@ Heading heading_of(const UnknownColumn& column) {
         return {&domain::quantity_of(each.key), std::string(each.unit()), true, "it has our own name"};
   const Split split = split_unit(column.heading());
   Heading heading;
-  heading.unit = !column.unit.empty() ? column.unit : input::unit_word(split.behind);
+  heading.unit = !column.unit.empty() ? column.unit : unit_of_part(split.behind);
   if (heading.unit.empty() && split.behind.empty() && column.heading().size() > 1 &&
       column.heading() != "in" && column.heading() != "min" && !names_a_run(column.heading()))
     heading.unit = input::unit_word(column.heading());  // a heading that is a unit
@@ -216,6 +306,12 @@ Heading heading_of(const UnknownColumn& column) {
   }
   if (column.is_date) told = "it holds dates";
   if (key.empty()) return {nullptr, heading.unit, false, std::string(no_word)};
+  if (!heading.unit.empty() && key == "time" && input::unit_problem(heading.unit, "K").empty())
+    return {nullptr, heading.unit, false, "a temperature"};
+  if (key == "command" && is_target_of_another(heading.unit, words))
+    return {nullptr, heading.unit, false, "the target of a position or a force, not a command of the valve"};
+  if (key == "force" && !heading.unit.empty() && !is_unit_of(key, heading.unit))
+    heading.unit = force_of_mass(heading.unit);
   heading.quantity = &domain::quantity_of(key);
   if (key == "time" && heading.unit.empty()) heading.unit = unit_of_time_word(words);
   heading.unit_fits = is_unit_of(key, heading.unit);

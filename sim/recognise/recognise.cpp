@@ -10,6 +10,7 @@
 #include <sim/input/file_names.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/thinned.hpp>
 #include <sim/recognise/columns.hpp>
 #include <sim/recognise/headings.hpp>
 
@@ -61,9 +62,10 @@ constexpr double shortest_tick_s = 1e-4, longest_tick_s = 1.0;
 /// Understands tables that have been read.
 class Recogniser {
  public:
-  explicit Recogniser(Recognised& all) : all_(all) {}
+  Recogniser(Recognised& all, bool rig_is_known) : all_(all), rig_is_known_(rig_is_known) {}
 
-  void operator()(bool rig_is_known) {
+  void operator()() {
+    const bool rig_is_known = rig_is_known_;
     maps(rig_is_known);
     runs();
     clocks();
@@ -101,7 +103,9 @@ class Recogniser {
       if (const auto load = load_of(all_.tables[i])) all_.runs[i].load = Told{load->quantity, load->reason};
       any = any || all_.runs[i].load.has_value();
     }
-    held_ = !any && first_map().find("force") != nullptr;
+    const ColumnGuess* contraction = first_map().find("contraction");
+    const bool given = contraction == nullptr || contraction->input.has_value();
+    held_ = !any && first_map().find("force") != nullptr && (given || !rig_is_known_);
     if (held_) return;
     for (RunGuess& run : all_.runs)
       if (!run.load)
@@ -292,6 +296,7 @@ class Recogniser {
   }
 
   Recognised& all_;
+  bool rig_is_known_;
   double step_s_ = 0.0;
   bool even_ = false, held_ = false;
   std::string clock_;
@@ -301,10 +306,11 @@ class Recogniser {
 
 Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known) {
   Recognised all;
+  const std::uintmax_t together = input::bytes_of({files.begin(), files.end()});
   for (const auto& file : files)
-    for (const UnknownTable& table : read_unknown(file))
+    for (const UnknownTable& table : read_unknown(file, together))
       for (UnknownTable& run : runs_in(table)) all.tables.push_back(std::move(run));
-  Recogniser{all}(rig_is_known);
+  Recogniser{all, rig_is_known}();
   return all;
 }
 

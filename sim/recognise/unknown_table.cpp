@@ -15,6 +15,7 @@
 #include <sim/input/readable.hpp>
 #include <sim/input/readers.hpp>
 #include <sim/input/text_layout.hpp>
+#include <sim/recognise/headings.hpp>
 #include <sim/recognise/settings.hpp>
 #include <sim/recognise/unknown_table.hpp>
 
@@ -32,14 +33,21 @@ struct Growing {
   std::vector<double> times, texts;                  ///< of `known`, by their places
   std::map<std::string, double, std::less<>> known;  ///< none: there are too many
   bool few_words = true;
+  std::string cell_unit, first_word;
+  std::size_t first_line = 0;
 
-  void add(const Cell& cell, input::NumberReader& reader) {
+  void add(const Cell& cell, input::NumberReader& reader, std::size_t line) {
     std::string problem;
-    const auto number = epoch.read("", cell, reader, problem);
+    Cell bare = cell;
+    const bool same_unit = input::take_unit(bare, cell_unit);
+    const auto number = same_unit ? epoch.read("", bare, reader, problem) : std::nullopt;
     const auto time = number ? std::nullopt : clock.read("", cell, problem);
     numbers += number ? 1 : 0;
     dates += time ? 1 : 0;
-    words += !number && !time && !input::is_missing(cell) ? 1 : 0;
+    if (!number && !time && !input::is_missing(cell) && words++ == 0) {
+      first_word = cell.text.substr(0, 40);
+      first_line = line;
+    }
     column.values.push_back(number.value_or(std::nan("")));
     if (dates > 0) times.resize(column.values.size(), std::nan(""));
     if (time) times.back() = *time;
@@ -73,6 +81,10 @@ struct Growing {
       return true;
     }
     if (numbers == 0 || numbers < words) return false;
+    if (words > 0)
+      column.odd = fmt::format("{} of its {} cells hold no number, such as {} in line {}", words,
+                               column.values.size(), first_word, first_line);
+    if (column.unit.empty()) column.unit = cell_unit;
     column.texts.clear();
     return true;
   }
@@ -105,6 +117,23 @@ void add_settings_beside(const Source& source, const input::TextLayout& layout, 
       table.settings.push_back({std::string(names[i].text), std::string(values[i].text)});
 }
 
+/// A quantity in each row, its name before its numbers.
+void refuse_rows_of_quantities(const Source& source, const input::TextLayout& layout,
+                               const std::vector<Growing>& all) {
+  constexpr std::size_t most_quantities = 12, least_instants = 20;
+  if (all.size() < least_instants || all.front().column.texts.empty() || all.front().numbers > 0 ||
+      all.front().column.values.size() > most_quantities)
+    return;
+  const auto& names = all.front().column.texts;
+  if (std::ranges::any_of(names, [](const std::string& name) {
+        const Heading heading = heading_of({name, "", false});
+        return heading.quantity != nullptr && heading.quantity->key == "time";
+      }))
+    refuse(
+        source, {layout.first_row, 1},
+        "each quantity stands in a row; they are wanted in columns: transpose the table and save it again");
+}
+
 void read_text(const Source& source, UnknownTable& table) {
   const input::TextLayout layout = input::layout_of(source, {});
   if (!layout.problem.empty()) refuse(source, {layout.problem_line, 1}, layout.problem);
@@ -116,12 +145,15 @@ void read_text(const Source& source, UnknownTable& table) {
     if (const auto said = setting_in(source.line(line))) table.settings.push_back(*said);
   }
   if (layout.unread > 0) table.words.push_back(fmt::format("line {}", layout.unread));
+  if (layout.footer > 0)
+    table.words.push_back(fmt::format("line {} and those below", source.line_in_file(layout.footer)));
   add_settings_beside(source, layout, table);
   std::vector<Growing> all(layout.headings.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string& heading = layout.headings[i];
     const bool again = std::count(layout.headings.begin(), layout.headings.end(), heading) > 1;
     all[i].column.name = heading.empty() || again ? std::to_string(i + 1) : heading;
+    if (again) all[i].column.label = heading;
     all[i].column.unit = layout.units[i];
   }
   input::NumberReader reader('\0');
@@ -130,9 +162,14 @@ void read_text(const Source& source, UnknownTable& table) {
     const std::vector<Cell> cells = input::row_cells(source, layout, line);
     if (cells.size() > all.size())
       refuse(source, {line, 1},
-             fmt::format("this row has {} cells; those above have {}", cells.size(), all.size()));
-    for (std::size_t i = 0; i < all.size(); ++i) all[i].add(i < cells.size() ? cells[i] : Cell{}, reader);
+             fmt::format(
+                 "this row has {} cells; those above have {}: if another table begins here, put each into "
+                 "a file of its own",
+                 cells.size(), all.size()));
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i].add(i < cells.size() ? cells[i] : Cell{}, reader, source.line_in_file(line));
   }
+  refuse_rows_of_quantities(source, layout, all);
   keep(all, table);
 }
 
@@ -218,9 +255,9 @@ UnknownTable UnknownTable::rows(const std::vector<std::size_t>& which, const std
   return some;
 }
 
-std::vector<UnknownTable> read_unknown(const std::filesystem::path& path) {
+std::vector<UnknownTable> read_unknown(const std::filesystem::path& path, std::uintmax_t together) {
   std::vector<UnknownTable> tables;
-  const std::vector<input::LoadedSheet> sheets = input::load_tables(path);
+  const std::vector<input::LoadedSheet> sheets = input::load_tables(path, together);
   for (const auto& [name, source] : sheets) {
     tables.push_back(read_one(path, source));
     if (sheets.size() > 1) tables.back().part.push_back("sheet: " + domain::yaml_scalar(name));

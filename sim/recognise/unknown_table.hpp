@@ -2,6 +2,7 @@
 // what its file says of the recording.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct UnknownColumn {
   std::string label{};               ///< how the file calls it besides; empty: only by its name
   std::vector<std::string> texts{};  ///< of a column of words: its values are their places in this list
   std::string in_file{}, where{};    ///< of a quantity in a long table: its column, and which rows are its
+  std::string odd{};  ///< cells of a column of numbers that hold none; empty: there are no such
 
   const std::string& heading() const { return label.empty() ? name : label; }
 };
@@ -56,7 +58,7 @@ struct UnknownTable {
 
 /// One, or one for each sheet. Throws MissingInput; BadInput for a file without a table, or one that can be
 /// taken in two ways.
-std::vector<UnknownTable> read_unknown(const std::filesystem::path& path);
+std::vector<UnknownTable> read_unknown(const std::filesystem::path& path, std::uintmax_t together = 0);
 
 /// Time between two rows that the settings say [s]; 0 if they say none, or two.
 struct SaidStep {

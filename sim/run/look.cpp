@@ -54,8 +54,7 @@ Look look(domain::Dataset data) {
   std::vector<data::Finding> findings;
   if (!data.rows_of_stamps) findings = data::mend_at_stamps(data);
   data = data::with_rows(std::move(data));
-  constexpr double most_s = 600.0;  // of a run: slow records last for hours
-  const auto& [most_rows, most_of_a_run] = data::thresholds.look;
+  const auto& [most_rows, most_of_a_run, most_s] = data::thresholds.look;
   const std::size_t most_rows_of_a_run =
       std::min(most_of_a_run, std::max<std::size_t>(2, static_cast<std::size_t>(most_s / data.row_s())));
   std::size_t rows = 0;

@@ -13,6 +13,9 @@ constexpr double most_imbalance = 1e-6;
 /// Below the atmosphere by more than this [Pa], a tube no longer fills its braid.
 constexpr double suction_Pa = 100.0;
 
+/// A push below this [N] is nobody's: a muscle without pressure, held by friction's floor.
+constexpr double noticed_N = 0.01;
+
 void note_slack_of(Recording& recording, std::size_t muscle) {
   Slack slack{.muscle = static_cast<int>(muscle)};
   for (const Sample& row : recording.samples) {
@@ -46,12 +49,14 @@ std::vector<std::string> doubts(const Recording& recording) {
         "the ledger leaves {:.2g} of the gas and {:.2g} of the work unexplained, more than {:g}: the "
         "integration is no more exact than that; a tighter integrator.tolerance helps",
         gas, energy, most_imbalance));
-  for (const Slack& slack : recording.slack)
+  for (const Slack& slack : recording.slack) {
+    if (-slack.lowest_N < noticed_N) continue;
     found.push_back(
         fmt::format("the cord of muscle {} would have to push, from {:.3f} s on in {} of {} rows, by up to "
                     "{:.3g} N at {:.3f} s: a real one goes slack there, here it is taken as taut",
                     slack.muscle, slack.from_s, slack.rows, recording.samples.size(), -slack.lowest_N,
                     slack.lowest_at_s));
+  }
   if (recording.samples.empty()) return found;
   const auto lowest = std::min_element(
       recording.samples.begin(), recording.samples.end(), [](const Sample& a, const Sample& b) {

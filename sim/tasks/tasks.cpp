@@ -128,13 +128,22 @@ void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data
 
 }  // namespace
 
-std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses) {
+std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses,
+                                 const std::function<void(const std::vector<std::string>&)>& say) {
   add_hypotheses(hypotheses, data);
   std::vector<std::string> warnings = asked_first(data);
   input::require_judged(data, "diagnose");
   for (const data::Finding& finding : data::mend_at_stamps(data))
     warnings.push_back(data::text_of(data, finding).append(data::consequence_of(finding)));
   data = data::with_rows(std::move(data));
+  const std::vector<data::Finding> looked = run::look(data).findings;
+  data::raise(data, looked);
+  std::vector<std::string> at_once = warnings;  // the diagnosis says the rest of it again, with what it did
+  for (const data::Finding& finding : looked) {
+    at_once.push_back(data::text_of(data, finding));
+    if (finding.quantity == "load") warnings.push_back(at_once.back());
+  }
+  say(data::grouped(std::move(at_once)));
   return warnings;
 }
 

@@ -37,9 +37,10 @@ domain::Dataset ticked(domain::Dataset data, const std::function<void(const std:
 // A diagnosis.
 
 /// Adds the laws of hypothesis files to the rig, on both sides of a pair, checks that the data can be judged
-/// and makes rows of stamps. Gives what is to be warned of. Throws input::BadInput, input::MissingInput,
-/// data::UnfitData.
-std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses);
+/// and makes rows of stamps. `say` hears before anything is fitted what `check` and `replay` say of the data.
+/// Gives what the diagnosis has to repeat. Throws input::BadInput, input::MissingInput, data::UnfitData.
+std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses,
+                                 const std::function<void(const std::vector<std::string>&)>& say);
 
 struct Diagnosing {
   unsigned threads = 0;

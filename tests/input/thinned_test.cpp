@@ -51,10 +51,48 @@ TEST_F(ThinnedTable, StampsStayThose) {
   EXPECT_NEAR(time_s.back() - time_s[time_s.size() - 2], 0.005, 1e-9);
   EXPECT_NEAR(time_s.back(), 1e-3 * rows, 0.005);
   ASSERT_EQ(data_.remarks.size(), 1u);
-  EXPECT_TRUE(holds(data_.remarks[0], "4100001 lines are more than are read at once: every 5th is"));
+  EXPECT_TRUE(
+      holds(data_.remarks[0],
+            "4100001 lines, with those of the other files, are more than are read at once: 1 in 5 is"));
   EXPECT_EQ(data_.inputs.back().sha256, Source::load(place_ / "r.csv", 1U << 30U).sha256());
   EXPECT_TRUE(holds(read("rows_are_ticks: true, ", ""), "put each run into a file of its own"));
   EXPECT_EQ(load_thinned(place_ / "dataset.yaml"), std::nullopt);
+}
+
+TEST_F(ThinnedTable, FilesShareWhatIsRead) {
+  std::string text = "t,p,x\n", runs;
+  for (int k = 0; k < rows / 4; ++k) text += fmt::format("{},1.5,2\n", k);
+  for (const char* name : {"a", "b", "c", "d"}) {
+    place_.write(fmt::format("{}.csv", name), text);
+    runs += fmt::format("  - {{id: {0}, file: {0}.csv, load: 5 kg}}\n", name);
+  }
+  place_.write("dataset.yaml",
+               std::string("schema: mckibben-dataset/1\nrig: thesis\ncolumns: {") + by_stamps +
+                   "muscle_pressure: {column: p, unit: bar, as: input}, contraction: {column: x, unit: "
+                   "mm}}\nruns:\n" +
+                   runs);
+  data_ = read_dataset(place_);
+  std::size_t kept = 0;
+  for (const auto& run : data_.runs) kept += run.measured->time_s.size();
+  EXPECT_LT(kept, 1'020'000u);
+  EXPECT_GT(kept, 700'000u);
+  EXPECT_NEAR(data_.runs[3].measured->time_s.back(), 1e-3 * rows / 4, 0.006);
+  ASSERT_EQ(data_.remarks.size(), 1u);
+  EXPECT_TRUE(holds(data_.remarks[0], "a.csv:2:1: 1025001 lines, with those of the other files",
+                    "likewise in 3 other places"));
+}
+
+TEST_F(ThinnedTable, SensorsThatTakeTurnsAreBothRead) {
+  std::string text = "t,sensor,value\n";
+  for (int k = 0; k < rows; ++k)
+    text += fmt::format("{},{},{}\n", k / 6, k % 6 == 0 ? "p" : "x", k % 6 == 0 ? "1.5" : "2");
+  place_.write("r.csv", text);
+  place_.write("dataset.yaml",
+               "schema: mckibben-dataset/1\nrig: thesis\ncolumns: {time: {column: t, unit: ms}, "
+               "muscle_pressure: {column: value, unit: bar, as: input, where: {sensor: p}}, contraction: "
+               "{column: value, unit: mm, where: {sensor: x}}}\nruns: [{id: r, file: r.csv, load: 5 kg}]\n");
+  data_ = read_dataset(place_);
+  EXPECT_NEAR(data_.runs[0].measured->time_s.back(), 1e-3 * rows / 6, 0.1);
 }
 
 TEST_F(ThinnedTable, PlacesAreThoseOfTheFile) {

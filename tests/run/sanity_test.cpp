@@ -172,7 +172,7 @@ TEST(Sanity, AllLoadsInAnotherUnitAreSaid) {
     for (domain::Run& run : data.runs) run.load_kg *= factor;
     const std::string text = says(data);
     EXPECT_TRUE(holds(text, ": all runs: load = ")) << words << text;
-    EXPECT_TRUE(text.ends_with(words)) << words << text;
+    EXPECT_TRUE(holds(text, words, ", here load: ")) << words << text;
     return text.starts_with("measured/dataset.yaml: error");
   };
   EXPECT_TRUE(expect(sound(), 1e-3, "these look like kg that are written in g: write kg"));
