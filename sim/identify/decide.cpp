@@ -61,12 +61,12 @@ Decision decide(const std::vector<Judged>& table) {
   std::ranges::sort(decision.rivals, std::greater{}, [&](std::size_t i) { return table[i].score; });
   // A rival that the sheet allows stands for a best one that it does not, and one that predicts better for
   // one that does not.
-  std::size_t reference = decision.best;
-  if (table[reference].general)  // they beat the catalogue by strong evidence, or not
-    for (std::size_t i = 0; i < table.size(); ++i)
-      if (!table[i].general && table[i].score > table[decision.best].score - decisive.strong &&
-          (table[reference].general || table[i].score > table[reference].score))
-        reference = i;
+  // Before that, general terms beat the catalogue by strong evidence or not at all.
+  std::size_t named = decision.best;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (!table[i].general && (table[named].general || table[i].score > table[named].score)) named = i;
+  std::size_t reference =
+      table[named].score > table[decision.best].score - decisive.strong ? named : decision.best;
   for (const std::size_t i : decision.rivals) {
     if (!allowed(table[i]) || (table[i].general && !table[reference].general)) continue;
     const auto [nats, error] = loss(table[i].held_out, table[reference].held_out);

@@ -41,7 +41,6 @@ void Model::descend(const Effort& effort) {
               far ? std::vector<std::size_t>{Error::model_sd} : std::vector<std::size_t>{});
     const Grams now = error.grams(residual(), slopes);
     Quadratic quadratic(now.sum(), variance().cwiseInverse(), dictionary.vector(point));
-    open_ = quadratic.open();
     const double promised = quadratic.promised(), before = cost(read, point);
     if (far && promised < 1.0) {
       far = false;

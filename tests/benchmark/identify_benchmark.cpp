@@ -176,9 +176,8 @@ int main(int argc, char** argv) {
       const auto first = std::strtoull(argv[i + 1], nullptr, 10),
                  seeds = std::strtoull(argv[i + 2], nullptr, 10);
       for (const diagnose::DataSet& set : diagnose::all_sets(first, seeds, i + 3 < argc ? argv[i + 3] : "")) {
-        diagnose::Hidden hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
-        domain::Dataset data = hidden.data;
-        identify_one(fmt::format("{} {}", hidden.title, set.seed), std::move(data), verbose, &hidden);
+        const diagnose::Hidden hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
+        identify_one(fmt::format("{} {}", hidden.title, set.seed), hidden.data, verbose, &hidden);
       }
       return 0;
     }
