@@ -31,20 +31,20 @@ double Knowledge::target_at(std::int64_t tick) const {
 
 double ForceModel::force_N(double contraction_ratio, double pressure_Pa) const {
   const double a = 3.0 / square(std::tan(braid_angle_rad)), b = 1.0 / square(std::sin(braid_angle_rad));
-  const double area_m2 = std::numbers::pi * square(rest_radius_m);
+  const double area_m2 = count * std::numbers::pi * square(rest_radius_m);
   return area_m2 * pressure_Pa * (a * square(1.0 - end_correction * contraction_ratio) - b);
 }
 
 double ForceModel::force_drop_N(double contraction_ratio, double pressure_Pa) const {
   const double a = 3.0 / square(std::tan(braid_angle_rad));
-  const double area_m2 = std::numbers::pi * square(rest_radius_m);
+  const double area_m2 = count * std::numbers::pi * square(rest_radius_m);
   return area_m2 * pressure_Pa * 2.0 * a * end_correction * (1.0 - end_correction * contraction_ratio);
 }
 
 double ForceModel::contact_surface_m2(double contraction_ratio) const {
   const double cosine = std::cos(braid_angle_rad), shortened = 1.0 - contraction_ratio;
   const double factor = surface_as_printed ? cosine : square(cosine);  // docs/equations.md, Misprint
-  return 2.0 * std::numbers::pi * rest_radius_m * rest_length_m * std::sin(braid_angle_rad) /
+  return 2.0 * count * std::numbers::pi * rest_radius_m * rest_length_m * std::sin(braid_angle_rad) /
          (shortened * std::sqrt(1.0 - factor * square(shortened)));
 }
 

@@ -40,6 +40,7 @@ struct ForceModel {
   double braid_angle_rad = 0.0;
   double end_correction = 0.0;
   bool surface_as_printed = false;  ///< T 4.3 as printed, without the square on its cosine
+  int count = 1;                    ///< such muscles side by side: force and surface are of all of them
 
   double force_N(double contraction_ratio, double pressure_Pa) const;
   double force_drop_N(double contraction_ratio, double pressure_Pa) const;  ///< -dF/de

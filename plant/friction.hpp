@@ -24,6 +24,16 @@ S friction_coefficient(const FrictionOf<P>& p, const S& contraction_ratio, const
   return 0.01 * (p.f0 + p.f1_s2_per_mA2 * nu * nu + p.f2 * e + p.f3 * log(e));
 }
 
+/// Of equal muscles side by side: each moves as one does.
+template <class P>
+FrictionOf<P> side_by_side(FrictionOf<P> friction, double count) {
+  friction.scale = count * friction.scale;
+  friction.floor_N = count * friction.floor_N;
+  friction.bristle_stiffness_N_per_m = count * friction.bristle_stiffness_N_per_m;
+  friction.bristle_damping_N_s_per_m = count * friction.bristle_damping_N_s_per_m;
+  return friction;
+}
+
 /// Friction level G [N], never below the floor. Contact surface in m2, gauge pressure in Pa.
 template <class P, class S, class H>
 S friction_level_N(const FrictionOf<P>& p, const S& contraction_ratio, const S& surface_m2,

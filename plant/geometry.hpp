@@ -6,7 +6,8 @@
 
 namespace mckibben::plant {
 
-/// Constants of a braid, computed once. All lengths in m, areas in m2, volumes in m3.
+/// Constants of a braid, computed once; of muscles side by side, of all of them together. All lengths in m,
+/// areas in m2, volumes in m3.
 template <class P>
 class BraidOf {
  public:
@@ -69,6 +70,7 @@ class BraidOf {
     return -0.25 * lowest_ratio_ * length_m_ * stop_N_per_m_ / gravity_m_per_s2;
   }
   const P& rest_length_m() const { return length_m_; }
+  const P& stop_stiffness_N_per_m() const { return stop_N_per_m_; }
 
  private:
   P a_, b_, k_, area_m2_, length_m_, volume_at_rest_m3_, stop_N_per_m_;
@@ -86,11 +88,12 @@ BraidOf<P>::BraidOf(const MuscleOf<P>& muscle) {
   a_ = 3.0 * cosine * cosine / (sine * sine);  // T 2.6
   b_ = 1.0 / (sine * sine);                    // T 2.7
   k_ = muscle.end_correction;
-  area_m2_ = std::numbers::pi * muscle.rest_radius_m * muscle.rest_radius_m;
+  const auto count = static_cast<double>(muscle.count);
+  area_m2_ = count * std::numbers::pi * muscle.rest_radius_m * muscle.rest_radius_m;
   length_m_ = muscle.rest_length_m;
-  stop_N_per_m_ = muscle.stop_stiffness_N_per_m;
-  volume_at_rest_m3_ = muscle.dead_volume_m3 + area_m2_ * length_m_;
-  surface_factor_m2_ = 2.0 * std::numbers::pi * muscle.rest_radius_m * length_m_ * sine;
+  stop_N_per_m_ = count * muscle.stop_stiffness_N_per_m;
+  volume_at_rest_m3_ = count * muscle.dead_volume_m3 + area_m2_ * length_m_;
+  surface_factor_m2_ = count * 2.0 * std::numbers::pi * muscle.rest_radius_m * length_m_ * sine;
   surface_cosine_ = muscle.contact_surface == ContactSurface::squared ? P(cosine * cosine) : cosine;
   lowest_ratio_ = 1.0 - 1.0 / sqrt(surface_cosine_);
   highest_ratio_ = 1.0 / k_;  // beyond it the braid law turns back; the volume is positive up to here

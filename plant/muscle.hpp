@@ -38,9 +38,10 @@ constexpr auto names(FrictionMemory) {
                     std::pair{coulomb, std::string_view{"coulomb"}}};
 }
 
-/// Braid and tube of one muscle (T 2.4 to 2.10).
+/// Braid and tube of one muscle (T 2.4 to 2.10), and how many such pull side by side.
 template <class P>
 struct MuscleOf {
+  int count = 1;
   P rest_length_m = 0.300;
   P rest_radius_m = 7.5e-3;
   P braid_angle_rad = 20.0 * degree_rad;
@@ -52,6 +53,7 @@ struct MuscleOf {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
+    visit("count", self.count, 1, 100, "equal muscles side by side on one cord, each with a hose");
     visit("rest_length", self.rest_length_m, "m", 0.01, 5.0, "length at rest, l0 (T 2.4)");
     visit("rest_radius", self.rest_radius_m, "m", 5e-4, 0.2, "radius at rest, r0 (T 2.5)");
     visit("braid_angle", self.braid_angle_rad, "rad", 5.0 * degree_rad, 50.0 * degree_rad,

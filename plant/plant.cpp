@@ -74,7 +74,9 @@ template <class P>
 double PlantOf<P>::mechanical_energy_J(const State<double>& state) const {
   const double length = side_.braid().rest_length_m();
   const double speed = length * state.joint.contraction_speed_per_s;
-  const double moving_J = 0.5 * mass_kg_ * speed * speed;
+  const double moving_J =
+      0.5 * mass_kg_ * speed * speed +
+      rig().joint.spring_energy_J((state.joint.contraction_ratio - spring_from_) * length);
   if (!opposite_) return moving_J + weight_N() * length * state.joint.contraction_ratio;
   const double lean_rad = angle_rad(state.joint.contraction_ratio) - link_.hangs_at_rad;
   return moving_J + link_.mass_kg * gravity_m_per_s2 * link_.length_m * (1.0 - std::cos(lean_rad));

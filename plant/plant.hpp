@@ -22,6 +22,7 @@ namespace mckibben::plant {
 template <class S>
 struct Moment : SideMoment<S> {
   S guide_force_N;          // c v
+  S spring_force_N;         // of the return spring, positive where it shortens the (first) muscle
   S bench_force_N;          // of what gives the muscle its length, or pulls on the joint from outside
   S acceleration_m_per_s2;  // dv/dt
   SideMoment<S> opposite;
@@ -41,6 +42,11 @@ class PlantOf {
   const SideOf<P>& side() const { return side_; }
   const std::optional<SideOf<P>>& opposite() const { return opposite_; }
   const LinkOf<P>& link() const { return link_; }
+  /// What returns the joint [N], at a contraction ratio of the (first) muscle.
+  template <class S>
+  S spring_force_N(const S& contraction_ratio) const {
+    return -rig().joint.spring_force_N(S((contraction_ratio - spring_from_) * side_.braid().rest_length_m()));
+  }
 
   /// State at the start of a run: at rest, pressures at the references of the first currents.
   State<double> at_rest(const HeldOf<P>& held) const;
@@ -166,8 +172,9 @@ class PlantOf {
   SideOf<P> side_;
   std::optional<SideOf<P>> opposite_;
   LinkOf<P> link_{};
-  bool remembers_, polytropic_;  // any effect with a memory; the gas is not isothermal
+  bool remembers_, polytropic_, springs_;  // an effect with a memory, gas not isothermal, a return spring
   P load_kg_ = 0.0, radius_m_, opposite_share_ = 0.0, mass_kg_, damping_N_s_per_m_;
+  P spring_from_ = 0.0;  // the contraction ratio that its rise counts from
 };
 using Plant = PlantOf<double>;
 
@@ -181,10 +188,10 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
     : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
       remembers_(rig.remembers()),
       polytropic_(rig.effects.warm()),
+      springs_(any(rig.joint.has_spring())),
       load_kg_(load_kg),
       radius_m_(rig.joint.wheel_radius_m),
-      mass_kg_(load_kg + rig.joint.load_offset_kg +
-               rig.joint.wheel_inertia_kg_m2 / (rig.joint.wheel_radius_m * rig.joint.wheel_radius_m)),
+      mass_kg_(rig.moved_kg(load_kg)),
       damping_N_s_per_m_(rig.joint.guide_damping_N_s_per_m) {}
 
 template <class P>
@@ -194,10 +201,13 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<
       link_(link),
       remembers_(rig.remembers() || opposite.remembers()),
       polytropic_(rig.effects.warm() || opposite.effects.warm()),
+      springs_(any(rig.joint.has_spring())),
       radius_m_(rig.joint.wheel_radius_m),
       opposite_share_(rig.muscle.rest_length_m / opposite.muscle.rest_length_m),
-      mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_)),
-      damping_N_s_per_m_(link.damping_N_m_s_per_rad / (radius_m_ * radius_m_)) {
+      mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_) +
+               rig.joint.moving_mass_kg),
+      damping_N_s_per_m_(link.damping_N_m_s_per_rad / (radius_m_ * radius_m_)),
+      spring_from_(link.contraction_ratio) {
   if (rig.friction.memory != opposite.friction.memory)
     throw std::invalid_argument("both sides of a pair have the same friction memory");
   if (any(side_.gas_energy_J_per_kg() != opposite_->gas_energy_J_per_kg()) ||
@@ -235,6 +245,11 @@ void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<H>& held, Mom
   now.guide_force_N = -damping_N_s_per_m_ * now.speed_m_per_s;
   S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N() + now.effects_pull_N -
              held.joint_force_N;
+  now.spring_force_N = S(0.0);
+  if (springs_) {
+    now.spring_force_N = spring_force_N(state.joint.contraction_ratio);
+    others = others + now.spring_force_N;
+  }
   if constexpr (sides == 2) {
     const S lean = (state.joint.contraction_ratio - link_.contraction_ratio) *
                        (side_.braid().rest_length_m() / radius_m_) -

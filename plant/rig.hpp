@@ -42,13 +42,26 @@ struct GasOf {
 };
 using Gas = GasOf<double>;
 
-/// What the muscle moves: hanging load on a wheel, and the guide it runs in.
+/// Whether a return spring pulls and pushes, or hangs slack where it would push.
+enum class SpringWays { both, one };
+constexpr auto names(SpringWays) {
+  using enum SpringWays;
+  return std::array{std::pair{both, std::string_view{"both"}}, std::pair{one, std::string_view{"one"}}};
+}
+constexpr bool absent(SpringWays ways) {
+  return ways == SpringWays::both;
+}
+
+/// What the muscle moves: hanging load on a wheel, the guide it runs in, and a return spring.
 template <class P>
 struct JointOf {
   P wheel_radius_m = 0.030;
   P wheel_inertia_kg_m2 = 1.0e-4;
   P guide_damping_N_s_per_m = 20.0;
   P load_offset_kg = 0.0;
+  P moving_mass_kg = 0.0;
+  P spring_N_per_m = 0.0, spring_preload_N = 0.0;
+  SpringWays spring_ways = SpringWays::both;
   P length_offset_m = 0.0;
   P reading_offset_m = 0.0;
 
@@ -60,10 +73,32 @@ struct JointOf {
           "viscous friction of the load guide, c");
     visit("load_offset", self.load_offset_kg, "kg", -5.0, 5.0,
           "mass on the wheel in addition to the load: hook, cord, error of the scales");
+    visit("moving_mass", self.moving_mass_kg, "kg", 0.0, 500.0,
+          "mass that moves with the cord and has no weight: a slide");
+    visit("spring", self.spring_N_per_m, "N/m", 0.0, 1e7,
+          "return spring at the cord (of the wheel: N.m/rad over wheel_radius^2)");
+    visit("spring_preload", self.spring_preload_N, "N", -1e5, 1e5,
+          "its force at rest length, of a pair at angle 0");
+    visit("spring_ways", self.spring_ways, "one: it only pulls");
     visit("length_offset", self.length_offset_m, "m", -0.1, 0.1,
           "by how much a muscle whose length is given is shorter than is said: zero of the bench, clamps");
     visit("reading_offset", self.reading_offset_m, "m", -0.1, 0.1,
           "by how much the load is read higher than it stands: zero of a laser or a potentiometer");
+  }
+
+  auto has_spring() const { return spring_N_per_m != 0.0 || spring_preload_N != 0.0; }
+  /// Force [N] of the return spring on the cord at a rise [m], against it where positive.
+  template <class S>
+  S spring_force_N(const S& rise_m) const {
+    const S force_N = spring_preload_N + spring_N_per_m * rise_m;
+    return spring_ways == SpringWays::one ? S(select(force_N > 0.0, force_N, S(0.0))) : force_N;
+  }
+  /// The integral of that over the rise [J].
+  double spring_energy_J(double rise_m) const {
+    const double pulled_N = spring_force_N(rise_m);
+    if (spring_ways == SpringWays::both || spring_N_per_m == 0.0)
+      return 0.5 * (pulled_N + spring_force_N(0.0)) * rise_m;
+    return 0.5 * pulled_N * pulled_N / spring_N_per_m;
   }
 };
 using Joint = JointOf<double>;
@@ -119,6 +154,19 @@ struct RigOf {
   Pair* pair() { return std::get_if<Pair>(&mechanics); }
   bool lifts_a_load() const { return std::holds_alternative<HangingLoad>(mechanics); }
   bool holds_a_length() const { return std::holds_alternative<HeldLength>(mechanics); }
+  /// Mass [kg] that moves with the cord under a load, the wheel as if it hung there.
+  P moved_kg(const P& load_kg) const {
+    return load_kg + joint.load_offset_kg + joint.moving_mass_kg +
+           joint.wheel_inertia_kg_m2 / (joint.wheel_radius_m * joint.wheel_radius_m);
+  }
+  /// What pulls at the muscle at rest length under a load, with a return spring, as a load [kg].
+  double pulled_kg(double load_kg) const {
+    return load_kg + joint.load_offset_kg + joint.spring_force_N(0.0) / gravity_m_per_s2;
+  }
+  /// Whether a load can hang there: it does not pull upwards, and something moves.
+  bool can_hang(double load_kg) const {
+    return load_kg + joint.load_offset_kg >= 0.0 && moved_kg(load_kg) > 0.0;
+  }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -151,6 +199,8 @@ struct RigOf {
   template <class Report>
   void rules(Report& report) const {
     side_rules(report);
+    if (holds_a_length() && joint.has_spring())
+      report("joint", "spring and spring_preload act on a joint that moves, not on a muscle of held_length");
     if (pair() == nullptr) return;
     pair_rules(report);
     if (sensors.of(Sensed::force) != nullptr)

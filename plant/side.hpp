@@ -15,6 +15,7 @@
 #include <plant/flow.hpp>
 #include <plant/friction.hpp>
 #include <plant/geometry.hpp>
+#include <plant/restriction.hpp>
 #include <plant/state.hpp>
 
 namespace mckibben::plant {
@@ -118,7 +119,7 @@ class SideOf {
             unit_flow_,
             state.valve_pressure_Pa,
             held.reference_pressure_Pa,
-            braid_.force_N(e, state.muscle_pressure_Pa)};
+            braid_.force_N(e, state.muscle_pressure_Pa) * share_};
   }
   template <class S>
   S flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, const S& hose_flow) const;
@@ -141,27 +142,12 @@ class SideOf {
   BraidOf<P> braid_;
   RestrictionOf<P> valve_, vent_, hose_, unit_flow_;
   bool effects_, regulates_, swings_;
+  double count_, share_;    // muscles side by side; 1/count
+  FrictionOf<P> friction_;  // of all of them, by the contact surface of one
   P weight_N_, gas_energy_J_per_kg_, valve_stiffness_Pa_per_kg_, supply_Pa_;
   P quickness_per_s_, catching_up_per_s_;  // of a regulator: dP_v/dt for an error, the memory's for its own
 };
 using Side = SideOf<double>;
-
-/// ISO 6358: a conductance holds at the reference temperature; warmer gas is thinner.
-template <class P>
-RestrictionOf<P> restriction(const RigOf<P>& rig, const P& conductance_m3_per_s_Pa) {
-  using std::sqrt;
-  constexpr double reference_temperature_K = 293.15;
-  const P warmth = sqrt(reference_temperature_K / rig.gas.temperature_K);
-  return {conductance_m3_per_s_Pa * rig.gas.reference_density_kg_per_m3 * warmth, rig.valve.critical_ratio,
-          rig.hose.linear_zone_Pa};
-}
-
-/// Of a valve that vents; 0 is said where it is no other than that of filling.
-template <class P>
-P venting_conductance(const RigOf<P>& rig) {
-  const P& own = rig.valve.venting_conductance_m3_per_s_Pa;
-  return rig.effects.vent_factor() * select(own > 0.0, own, rig.valve.conductance_m3_per_s_Pa);
-}
 
 template <class P>
 SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
@@ -169,11 +155,14 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       braid_(rig.muscle),
       valve_(restriction(rig, rig.valve.conductance_m3_per_s_Pa)),
       vent_(restriction(rig, venting_conductance(rig))),
-      hose_(restriction(rig, rig.hose.conductance_m3_per_s_Pa)),
+      hose_(restriction(rig, P(static_cast<double>(rig.muscle.count) * rig.hose.conductance_m3_per_s_Pa))),
       unit_flow_(restriction(rig, P(1.0))),
       effects_(!rig.effects.absent()),
       regulates_(rig.valve.is_regulator()),
       swings_(rig.valve.swings()),
+      count_(rig.muscle.count),
+      share_(1.0 / count_),
+      friction_(side_by_side(rig.friction, count_)),
       weight_N_(weight_N),
       gas_energy_J_per_kg_(rig.gas.gas_constant_J_per_kg_K * rig.gas.temperature_K),
       valve_stiffness_Pa_per_kg_(gas_energy_J_per_kg_ / rig.valve.volume_m3),
@@ -273,7 +262,8 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
   now.volume_m3 = braid_.volume_m3(e);
   now.volume_slope_m3 = braid_.volume_slope_m3(e);
   now.leak_flow = S(0.0);
-  if (effects_) now.leak_flow = rig_.effects.outflow_kg_per_s(instant(stroke, state, held, now), memory);
+  if (effects_)
+    now.leak_flow = count_ * rig_.effects.outflow_kg_per_s(instant(stroke, state, held, now), memory);
 
   if (held.given == GivenPressure::none)
     valve_flows(stroke, state, memory, held, now);
@@ -301,7 +291,7 @@ template <class S, class H>
 void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                        const HeldSideOf<H>& held, SideMoment<S>& now) const {
   using std::abs;
-  const FrictionOf<P>& friction = rig_.friction;
+  const FrictionOf<P>& friction = friction_;
   const S& e = stroke.contraction_ratio;
   const S& z = state.bristle_m;
   const S& v = now.speed_m_per_s;
@@ -313,18 +303,19 @@ void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const
       e < 0.0,
       [&] {
         const S damping = 1.0 - rig_.muscle.stop_damping_s_per_m * v;
-        const S force_N = -rig_.muscle.stop_stiffness_N_per_m * braid_.rest_length_m() * e * damping;
+        const S force_N = -braid_.stop_stiffness_N_per_m() * braid_.rest_length_m() * e * damping;
         return select(damping > 0.0, force_N, S(0.0));
       },
       [] { return S(0.0); });
-  const S surface = braid_.contact_surface_m2(e);
+  const S surface = braid_.contact_surface_m2(e) * share_;
   now.friction_level_N = friction_level_N(friction, e, surface, pressure_Pa, held.current_speed_mA_per_s);
   now.effects_pull_N = now.pull_on_load_N = S(0.0);
   if (effects_) {
     const auto known = instant(stroke, state, held, now);
     now.braid_force_N = braid_.force_N(e, pressure_Pa, rig_.effects.end_correction_shift(known));
     const Pull<S> pull = rig_.effects.pull(known, memory);
-    now.effects_pull_N = pull.all_N;
+    now.effects_pull_N =
+        count_ == 1.0 ? pull.all_N : S(count_ * (pull.all_N - pull.on_load_N) + pull.on_load_N);
     now.pull_on_load_N = pull.on_load_N;
     const S threads_N = now.friction_level_N - friction.floor_N;  // the floor is not friction of threads
     now.friction_level_N = threads_N * rig_.effects.friction_factor(known, memory) + friction.floor_N;

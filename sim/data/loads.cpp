@@ -36,14 +36,16 @@ bool stands_still(const Series& measured, const Series& simulated, std::size_t k
   return range(of(simulated)) > of_loads.moving;
 }
 
-/// What the braid carries at what was measured, in the middle of what friction makes of it. Where the
-/// simulated load hangs as well, by how much more it carries than that one: what the simulation is off by in
-/// friction and inertia, the measurement is too.
-std::optional<Weighed> weigh(const plant::Braid& braid, std::size_t index, const domain::Run& run,
-                             const Expected& expected) {
+/// What the braid carries beside a return spring at what was measured, in the middle of what friction makes
+/// of it. Where the simulated load hangs as well, by how much more it carries than that one: what the
+/// simulation is off by in friction and inertia, the measurement is too.
+std::optional<Weighed> weigh(const plant::Rig& rig, const plant::Braid& braid, std::size_t index,
+                             const domain::Run& run, const Expected& expected) {
   const auto carried_kg = [&](double contraction_ratio, std::size_t k) {
-    return braid.force_N(contraction_ratio, expected.pressure_Pa[k]) / plant::gravity_m_per_s2;
+    const double returned_N = rig.joint.spring_force_N(braid.rest_length_m() * contraction_ratio);
+    return (braid.force_N(contraction_ratio, expected.pressure_Pa[k]) - returned_N) / plant::gravity_m_per_s2;
   };
+  if (run.load_kg == 0.0) return std::nullopt;                   // no label to be wrong
   if (range(run.contraction_ratio) == 0.0) return std::nullopt;  // a dead reading weighs nothing
   Series plain_kg, compared_kg;
   for (std::size_t k = 0; k < std::min(run.contraction_ratio.size(), expected.pressure_Pa.size()); ++k) {
@@ -64,7 +66,7 @@ std::vector<Weighed> weigh(const domain::Dataset& data, const std::vector<Expect
   const plant::Braid braid(data.rig.muscle);
   std::vector<Weighed> list;
   for (std::size_t i = 0; i < data.runs.size(); ++i)
-    if (const auto one = weigh(braid, i, data.runs[i], expected[i])) list.push_back(*one);
+    if (const auto one = weigh(data.rig, braid, i, data.runs[i], expected[i])) list.push_back(*one);
   return list;
 }
 

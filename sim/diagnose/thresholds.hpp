@@ -25,10 +25,10 @@ struct Prior {
   bool of_hanging_load() const { return path.starts_with("joint."); }
 };
 struct ParameterThresholds {
-  /// Machined lengths are known to a per cent, catalogue conductances and friction to ten, trimmed pressures
-  /// [Pa] to a reading of the gauge, the load [kg] to a scale's. A regulator's lag, measured with another
-  /// volume behind it, to a third.
-  std::array<Prior, 14> priors{{{"muscle.rest_radius", 0.01, 0.0},
+  /// Machined lengths are known to a per cent, catalogue conductances, friction and springs to ten, trimmed
+  /// pressures [Pa] to a reading of the gauge, the load [kg] to a scale's. A regulator's lag, measured with
+  /// another volume behind it, to a third.
+  std::array<Prior, 16> priors{{{"muscle.rest_radius", 0.01, 0.0},
                                 {"muscle.end_correction", 0.01, 0.0},
                                 {"muscle.braid_angle", 0.01, 0.0},
                                 {"muscle.dead_volume", 0.3, 0.0},
@@ -41,7 +41,9 @@ struct ParameterThresholds {
                                 {"valve.damping", 0.3, 0.0},
                                 {"hose.conductance", 0.1, 0.0},
                                 {"joint.guide_damping", 0.2, 0.0},
-                                {"joint.load_offset", 0.0, 0.05}}};
+                                {"joint.load_offset", 0.0, 0.05},
+                                {"joint.spring", 0.1, 0.0},
+                                {"joint.spring_preload", 0.1, 0.0}}};
   /// Of a pair besides: how its muscles are mounted to a millimetre of 0.3 m, angles to a degree, a link's
   /// length and inertia to what a ruler and a drawing say.
   std::array<Prior, 6> pair_priors{{{"mechanics.contraction_1", 0.0, 0.003},

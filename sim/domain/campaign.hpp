@@ -56,7 +56,7 @@ struct Campaign {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name of the results' folder; the file's name if left out");
     visit("rig", self.rig, "a shipped name, the path of a rig file, or changes in place");
-    visit("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads; required where they hang");
+    visit("loads", self.loads_kg, "kg", 0.0, 500.0, "masses of the loads; required where they hang");
     visit.required("currents", self.currents, "currents that drive each load, or a pair");
     visit("repeats", self.repeats, 1, 1000000,
           "how often each load, or the pair, is driven by each current; without vary at most 10000 times");

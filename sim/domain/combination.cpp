@@ -34,7 +34,6 @@ struct Said {
   GivenPressure pressure() const { return map.given_pressure(pair() ? muscle : 0); }
   bool hangs() const { return rig.lifts_a_load() && !gives("contraction"); }
   bool has_load() const { return run.given_load_kg.has_value(); }
-  double hanging_kg() const { return run.given_load_kg.value_or(0.0) + rig.joint.load_offset_kg; }
   bool points() const { return !map.settled.absent(); }
 };
 
@@ -66,11 +65,10 @@ constexpr auto rules = std::to_array<Rule>({
      "the muscle's length is the input, so that a force from outside moves nothing; say as: ignored"},
     {"joint_force",
      [](const Said& s) {
-       return s.hangs() && s.gives("joint_force") && !s.has_load() &&
-              !(s.hanging_kg() > 0.0 || (s.hanging_kg() == 0.0 && s.rig.joint.wheel_inertia_kg_m2 > 0.0));
+       return s.hangs() && s.gives("joint_force") && !s.has_load() && !s.rig.can_hang(0.0);
      },
      "no load is given, and the rig's wheel has no inertia: a force alone moves nothing that has no mass; "
-     "give load of run {}, or joint.wheel_inertia of the rig"},
+     "give load of run {}, or joint.moving_mass or wheel_inertia of the rig"},
     {"load", [](const Said& s) { return s.has_load() && s.pair(); },
      "the rig's two muscles turn a link; nothing hangs there"},
     {"load", [](const Said& s) { return s.has_load() && !s.pair() && !s.hangs(); },
@@ -78,8 +76,10 @@ constexpr auto rules = std::to_array<Rule>({
     {"load", [](const Said& s) { return s.hangs() && !s.has_load() && !s.gives("joint_force"); },
      "the key load is missing"},
     {"load",
-     [](const Said& s) { return s.hangs() && s.has_load() && s.data.own_clock && s.hanging_kg() <= 0.0; },
-     "it and the rig's joint.load_offset leave no load"},
+     [](const Said& s) {
+       return s.hangs() && s.has_load() && s.data.own_clock && !s.rig.can_hang(*s.run.given_load_kg);
+     },
+     "it and the rig's joint.load_offset leave no load; at 0 kg joint.moving_mass or wheel_inertia moves"},
     {"start", [](const Said& s) { return s.points() && s.data.recorded.start == Start::moving; },
      "the rows of run {} are settled points"},
     {"start", [](const Said& s) { return !s.hangs() && s.data.recorded.start == Start::moving; },

@@ -100,7 +100,7 @@ struct Run {
     visit.required("file", self.file,
                    "its table, relative to this file: text (.csv, .txt or any other ending), .lvm, .mat, "
                    ".xlsx, .xls, .tdms");
-    visit("load", self.given_load_kg, "kg", 0.01, 500.0, "mass of the load; required where one hangs");
+    visit("load", self.given_load_kg, "kg", 0.0, 500.0, "mass of the load; required where one hangs");
     visit("columns", self.columns, "where this run's file differs from the data set's columns");
     visit("segment", self.segment, 0, 100000,
           "which part of a file that holds several: where its clock begins again, `cut` changes, or an .lvm "

@@ -160,7 +160,7 @@ struct Scenario {
  private:
   template <class Self, class Visitor>
   static void fields_of_one(Self& self, Visitor& visit) {
-    visit.required("loads", self.loads_kg, "kg", 0.01, 500.0, "masses of the loads");
+    visit.required("loads", self.loads_kg, "kg", 0.0, 500.0, "masses of the loads");
     visit.required("target", self.target, "the movement that is wanted");
     fields_of_time(self, visit);
     visit_controllers<controllers::SingleSettings>(self, [&](auto& controllers) {

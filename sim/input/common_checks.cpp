@@ -47,9 +47,16 @@ void require_load(const plant::Rig& rig, const std::string& file, std::string_vi
         {{Severity::error, file, nowhere, fmt::format("{} cannot take it yet: {}", verb, why), ""}});
 }
 
+std::string no_mass(const plant::Rig& rig) {
+  if (rig.joint.load_offset_kg != 0.0)
+    return fmt::format("with the rig's joint.load_offset of {} no load is left",
+                       write_quantity(rig.joint.load_offset_kg, "kg"));
+  return "without a load nothing moves: give joint.moving_mass, or wheel_inertia, of the rig";
+}
+
 std::string too_heavy(double load_kg, const plant::Rig& rig) {
   const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
-  if (load_kg + rig.joint.load_offset_kg <= most_kg) return "";
+  if (rig.pulled_kg(load_kg) <= most_kg) return "";
   return fmt::format(
       "the taut threads of this muscle bear {:.3g} kg before they lie along it; a stiffer stop "
       "(muscle.stop_stiffness, {}) or a wider braid_angle bears more",
@@ -76,13 +83,10 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
   const Node& nodes = *file.root.find("loads");
   if (loads_kg.empty()) problems.error(file.source, nodes.place, "loads: at least one load is needed");
   check_different(loads_kg, nodes, file.source, problems);
-  const double offset_kg = rig.joint.load_offset_kg;
   for (std::size_t i = 0; i < loads_kg.size(); ++i) {
     const Node& node = nodes.children[i];
-    if (loads_kg[i] + offset_kg <= 0.0)
-      problems.error(file.source, node.place,
-                     fmt::format("loads: {} and the rig's joint.load_offset of {} leave no load", node.text,
-                                 write_quantity(offset_kg, "kg")));
+    if (!rig.can_hang(loads_kg[i]))
+      problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, no_mass(rig)));
     else if (const auto why = too_heavy(loads_kg[i], rig); !why.empty())
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, why));
   }

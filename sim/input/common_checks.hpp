@@ -26,6 +26,8 @@ void check_lifts_a_load(const YamlFile& file, const plant::Rig& rig, Problems& p
 /// Throws BadInput, said of `file`, if a load cannot hang on the rig's muscle, as `verb` needs it.
 void require_load(const plant::Rig& rig, const std::string& file, std::string_view verb);
 
+/// What is missing where `Rig::can_hang` refuses a load.
+std::string no_mass(const plant::Rig& rig);
 /// Why the rig's taut threads cannot bear a load; empty if they can.
 std::string too_heavy(double load_kg, const plant::Rig& rig);
 

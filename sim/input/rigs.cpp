@@ -2,11 +2,13 @@
 // to a file it has passed is an error.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <plant/geometry.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/muscles.hpp>
 #include <sim/input/quantity.hpp>

@@ -103,10 +103,9 @@ std::string Session::set_sweep(const Sweep& sweep) {
 
 std::string Session::set_load(double load_kg) {
   std::string why = pair() ? "kg: two muscles turn a link; no load hangs there"
-                           : out_of_range("kg", load_kg, 0.01, 500.0, "kg");
-  if (why.empty() && load_kg + rig_.joint.load_offset_kg <= 0.0)
-    why = fmt::format("kg = {:g}: with the rig's load_offset of {:g} kg nothing hangs", load_kg,
-                      rig_.joint.load_offset_kg);
+                           : out_of_range("kg", load_kg, 0.0, 500.0, "kg");
+  if (why.empty() && !rig_.can_hang(load_kg))
+    why = fmt::format("kg = {:g}: {}", load_kg, input::no_mass(rig_));
   if (why.empty())
     if (const std::string heavy = input::too_heavy(load_kg, rig_); !heavy.empty())
       why = fmt::format("kg = {:g}: {}", load_kg, heavy);

@@ -50,8 +50,8 @@ class Batch {
         throw py::value_error("rigs of a batch are commanded in the same unit");
       if (file.pair() != nullptr) throw py::value_error("rigs of a batch have one muscle each");
       const double load_kg = loads_kg.data()[loads == 1 ? 0 : i];
-      if (!(load_kg + file.joint.load_offset_kg > 0.0) || !(load_kg <= 500.0))
-        throw py::value_error("loads_kg: masses above 0 and up to 500 kg");
+      if (!file.can_hang(load_kg) || !(load_kg <= 500.0))
+        throw py::value_error("loads_kg: masses of 0 to 500 kg, and something that moves");
       hanging.push_back({file, load_kg});
       settings.push_back(file.integrator);
       per_count_.push_back(run::contraction_per_count(file));

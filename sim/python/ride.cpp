@@ -24,9 +24,9 @@ constexpr double lowest_pressure_Pa = -plant::Pa_per_bar, highest_pressure_Pa = 
 
 ride::Ride ride_of(const plant::Rig& rig, std::optional<double> load_kg) {
   if (rig.pair() != nullptr && load_kg) throw py::value_error("two muscles turn a link; no load hangs there");
-  if (rig.pair() == nullptr &&
-      (!load_kg || !(*load_kg + rig.joint.load_offset_kg > 0.0) || !(*load_kg <= 500.0)))
-    throw py::value_error("load_kg: a mass above 0 and up to 500 kg hangs on one muscle");
+  if (rig.pair() == nullptr && (!load_kg || !rig.can_hang(*load_kg) || !(*load_kg <= 500.0)))
+    throw py::value_error(
+        "load_kg: a mass of 0 to 500 kg hangs on one muscle; at 0 joint.moving_mass or wheel_inertia moves");
   return {ride::Loaded{rig, load_kg.value_or(0.0)}, rig.integrator};
 }
 

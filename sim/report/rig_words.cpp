@@ -21,8 +21,19 @@ std::string mm(double length_m) {
 }
 
 std::string muscle(const plant::Muscle& muscle) {
-  return fmt::format("{} long, {} in radius and braided at {:.3g} deg, at rest", mm(muscle.rest_length_m),
+  return (muscle.count == 1 ? "" : fmt::format("{} side by side, each ", muscle.count)) +
+         fmt::format("{} long, {} in radius and braided at {:.3g} deg, at rest", mm(muscle.rest_length_m),
                      mm(muscle.rest_radius_m), muscle.braid_angle_rad / plant::degree_rad);
+}
+
+std::string spring(const plant::Joint& joint) {
+  std::string says;
+  if (joint.moving_mass_kg > 0.0) says += "; " + readable(joint.moving_mass_kg, "kg") + " move with the cord";
+  if (joint.has_spring())
+    says += fmt::format("; a return spring of {} and, at rest, {}{}", readable(joint.spring_N_per_m, "N/m"),
+                        readable(joint.spring_preload_N, "N"),
+                        joint.spring_ways == plant::SpringWays::one ? ", which only pulls" : "");
+  return says;
 }
 
 std::string valve(const plant::Valve& valve) {
@@ -93,7 +104,8 @@ std::string rig_html(const Contents& contents) {
   part("wheel", mm(rig.joint.wheel_radius_m) + " in radius" +
                     (rig.joint.load_offset_kg == 0.0 ? ""
                                                      : "; " + readable(rig.joint.load_offset_kg, "kg") +
-                                                           " hang on it in addition to the load"));
+                                                           " hang on it in addition to the load") +
+                    spring(rig.joint));
   html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", in_words(name_of(rig.sensors.position().kind)),
                       text_html(encoder(rig, pair != nullptr), rig));
   part("valve", valve(rig.valve));

@@ -101,8 +101,7 @@ plant::Rig drawn_rig(const domain::Campaign& campaign, int repeat) {
 
 std::string unfit(const plant::Rig& rig, double load_kg) {
   if (std::string broken = domain::broken_rule(rig); !broken.empty()) return broken;
-  const double hangs_kg = load_kg + rig.joint.load_offset_kg,
-               most_kg = plant::Braid(rig.muscle).largest_load_kg();
+  const double hangs_kg = rig.pulled_kg(load_kg), most_kg = plant::Braid(rig.muscle).largest_load_kg();
   if (hangs_kg <= most_kg) return "";
   return fmt::format("the taut threads of this muscle bear {:.3g} kg, not {:.3g} kg", most_kg, hangs_kg);
 }

@@ -107,7 +107,7 @@ class Moving {
     Held held;
     held.slip = plant::Slip::sticking;
     const auto now = plant_.moment(state_at(e, pressure_Pa, speed_per_s), held);
-    return now.braid_force_N + now.effects_pull_N - weight_N_ + now.guide_force_N -
+    return now.braid_force_N + now.effects_pull_N + now.spring_force_N - weight_N_ + now.guide_force_N -
            direction_ * now.friction_level_N;
   }
 

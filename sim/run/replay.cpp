@@ -53,8 +53,7 @@ class Replaying {
   /// No load, no motion.
   bool moves(const domain::Run& run) const {
     return !dataset_.rig.lifts_a_load() || run.length_is_given() ||
-           (run.measured && run.measured->gives_outer_force()) ||
-           run.load_kg + dataset_.rig.joint.load_offset_kg > 0.0;
+           (run.measured && run.measured->gives_outer_force()) || dataset_.rig.can_hang(run.load_kg);
   }
 
   void take(std::size_t i, Recording recording) {

@@ -206,7 +206,7 @@ class Run : public ride::BatchItem {
 
 /// No load, no motion.
 bool moves(const RunPlan& plan) {
-  return plan.rig.pair() || plan.load_kg + plan.rig.joint.load_offset_kg > 0.0;
+  return plan.rig.pair() || plan.rig.can_hang(plan.load_kg);
 }
 
 /// Pairs go alone, as `follow` has them: to the same bits.
@@ -266,8 +266,12 @@ double contraction_per_count(const plant::Rig& rig) {
 namespace {
 
 controllers::ForceModel force_model(const plant::Muscle& muscle) {
-  return {muscle.rest_radius_m, muscle.rest_length_m, muscle.braid_angle_rad, muscle.end_correction,
-          muscle.contact_surface == plant::ContactSurface::printed};
+  return {muscle.rest_radius_m,
+          muscle.rest_length_m,
+          muscle.braid_angle_rad,
+          muscle.end_correction,
+          muscle.contact_surface == plant::ContactSurface::printed,
+          muscle.count};
 }
 
 controllers::ValveLine valve_line(const plant::Valve& valve) {

@@ -1,4 +1,5 @@
-// Motions with a known answer, for both methods: choked filling, free fall, and what a run must conserve.
+// Motions with a known answer, for both methods: choked filling, free fall, return springs, muscles side by
+// side, and what a run must conserve.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -56,6 +57,94 @@ TEST_P(ClosedForm, GasMassAndEnergyAreConserved) {
   EXPECT_NEAR(books.braid_work_J + books.stop_work_J - books.thread_friction_work_J - books.guide_work_J,
               bench.plant.mechanical_energy_J(bench.flow.state) - energy_before_J,
               1e-7 * books.thread_friction_work_J);
+}
+
+/// No load, next to no friction, a moving mass on a return spring.
+plant::Rig on_a_spring(double N_per_m, double preload_N) {
+  plant::Rig rig;
+  rig.friction.scale = 0.0;
+  rig.friction.floor_N = 1e-9;
+  rig.friction.bristle_stiffness_N_per_m = 1e-6;  // as weak as the floor, or it is stiff
+  rig.friction.bristle_damping_N_s_per_m = 0.0;
+  rig.joint.wheel_inertia_kg_m2 = 0.0;
+  rig.joint.moving_mass_kg = 0.3;
+  rig.joint.spring_N_per_m = N_per_m;
+  rig.joint.spring_preload_N = preload_N;
+  return rig;
+}
+
+TEST_P(ClosedForm, AMuscleStandsWhereItsSpringBalancesIt) {
+  for (const double pressure_Pa : {0.5e5, 1e5, 2e5, 4e5}) {
+    RigOnBench bench(on_a_spring(4000.0, 20.0), 0.0, {GetParam(), 1e-9});
+    bench.start(4.0);
+    bench.held.given = plant::GivenPressure::muscle;
+    bench.held.pressure_rate_Pa_per_s = 0.0;
+    bench.flow.state.side.muscle_pressure_Pa = pressure_Pa;
+    bench.hold(4.0, 200);
+    const plant::Braid braid(plant::Muscle{});
+    double low = 0.0, high = braid.largest_contraction_ratio();
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (braid.force_N(middle, pressure_Pa) > 20.0 + 4000.0 * 0.3 * middle ? low : high) = middle;
+    }
+    EXPECT_NEAR(300.0 * bench.flow.state.joint.contraction_ratio, 300.0 * low, 1e-6) << pressure_Pa;  // mm
+  }
+}
+
+// x = x0 + a cos(sqrt(k/m) t)
+TEST_P(ClosedForm, AMassSwingsOnItsSpring) {
+  plant::Rig rig = on_a_spring(500.0, -15.0);  // at rest at 30 mm
+  rig.muscle.rest_radius_m = 5e-4;             // a thread
+  rig.valve.zero_pressure_Pa = 0.0;
+  rig.joint.guide_damping_N_s_per_m = 0.0;
+  RigOnBench bench(rig, 0.0, {GetParam(), 1e-10}, true);
+  bench.start(4.0);
+  bench.held.given = plant::GivenPressure::muscle;  // none, so that no gas is a second spring
+  bench.flow.state.joint.contraction_ratio = 0.04 / 0.3;
+  const auto before = bench.flow.state;
+  bench.hold(4.0, 50);
+  EXPECT_NEAR(0.3 * bench.flow.state.joint.contraction_ratio,
+              0.03 + 0.01 * std::cos(std::sqrt(500.0 / 0.3) * 0.6), 2e-6);
+  EXPECT_NEAR(bench.plant.mechanical_energy_J(bench.flow.state), bench.plant.mechanical_energy_J(before),
+              1e-6);
+}
+
+TEST_P(ClosedForm, ASpringGivesBackWhatItTook) {
+  for (const plant::SpringWays ways : {plant::SpringWays::both, plant::SpringWays::one}) {
+    plant::Rig rig = on_a_spring(3000.0, -40.0);
+    rig.joint.spring_ways = ways;
+    RigOnBench bench(rig, 2.0, {GetParam(), 1e-10}, true);
+    bench.start(4.0);
+    const auto before = bench.flow.state;
+    for (int k = 0; k < 200; ++k) bench.hold(12.0 - 8.0 * std::cos(0.06 * k));
+    EXPECT_LT(bench.plant.imbalance(before, bench.flow.state, bench.flow.ledger).energy, 1e-7);
+  }
+}
+
+// By hand for the law of superposition: force goes by the radius squared, threads and their level by the
+// radius; the joint is of both.
+TEST_P(ClosedForm, MusclesSideBySideAreOneThatIsScaledByHand) {
+  const double n = 2.0;
+  plant::Rig two, scaled;
+  two.muscle.count = 2;
+  two.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
+  scaled.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = n * 1e-10;
+  scaled.muscle.rest_radius_m *= std::sqrt(n);
+  scaled.muscle.dead_volume_m3 *= n;
+  scaled.muscle.stop_stiffness_N_per_m *= n;
+  scaled.friction.scale *= std::sqrt(n);
+  scaled.friction.floor_N *= n;
+  scaled.friction.bristle_stiffness_N_per_m *= n;
+  scaled.friction.bristle_damping_N_s_per_m *= n;
+  scaled.hose.conductance_m3_per_s_Pa *= n;
+  RigOnBench one(two, 20.0, {GetParam(), 1e-9}), other(scaled, 20.0, {GetParam(), 1e-9});
+  one.start(4.0);
+  other.start(4.0);
+  for (int k = 0; k < 200; ++k)
+    for (RigOnBench* bench : {&one, &other}) bench->hold(12.0 - 8.0 * std::cos(0.06 * k));
+  EXPECT_GT(one.flow.state.joint.contraction_ratio, 0.05);
+  EXPECT_NEAR(one.flow.state.joint.contraction_ratio, other.flow.state.joint.contraction_ratio, 1e-8);
+  EXPECT_NEAR(one.flow.state.side.muscle_pressure_Pa, other.flow.state.side.muscle_pressure_Pa, 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothMethods, ClosedForm, testing::Values(Method::erk, Method::cvode),

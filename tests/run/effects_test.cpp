@@ -124,7 +124,7 @@ TEST(EffectsInARun, ALoadOffsetIsSoMuchMoreLoad) {
     return simulate(each, *controller);
   };
   EXPECT_TRUE(same_bits(simulated(offset), simulated(plan)));
-  offset.rig.joint.load_offset_kg = -13.5;
+  offset.rig.joint.load_offset_kg = -14.0;
   EXPECT_NE(simulated(offset).failure.find("leave no load"), std::string::npos);
 }
 

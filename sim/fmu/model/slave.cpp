@@ -42,7 +42,7 @@ void Slave::set(Reference reference, double value) {
   } else if (reference == length && rig_.holds_a_length()) {
     length_m_ = value;
   } else if (reference == load && rig_.lifts_a_load()) {
-    if (value + rig_.joint.load_offset_kg <= 0.0) throw std::runtime_error("load: there must be some mass");
+    if (!rig_.can_hang(value)) throw std::runtime_error("load: there must be some mass");
     load_kg_ = value;
   } else if (reference >= first_parameter && reference - first_parameter < paths_.size()) {
     const std::string& path = paths_[reference - first_parameter];
