@@ -61,7 +61,7 @@ struct MuscleOf {
     visit("end_correction", self.end_correction, "1", 1.0, 2.5, "correction for the conical ends, k (T 2.8)");
     visit("dead_volume", self.dead_volume_m3, "m3", 0.0, 1e-2, "gas volume of the fittings, V_d");
     visit("stop_stiffness", self.stop_stiffness_N_per_m, "N/m", 1e3, 1e8,
-          "taut threads, e < 0: stiffness k_s");
+          "taut threads, e < 0: stiffness k_s; if left out, at least what bears all that the muscle lifts");
     visit("stop_damping", self.stop_damping_s_per_m, "s/m", 0.0, 1e3,
           "taut threads: Hunt-Crossley damping chi");
     visit("contact_surface", self.contact_surface, "cos^2 (geometry) or cos (as the thesis prints 4.3)");

@@ -46,6 +46,30 @@ void read_rig_map(const YamlFile& file, Rig& into, Problems& problems, Chain& ch
     read_changes(file.source, file.root, into, problems, chain, also_allowed);
 }
 
+/// A stop that no file writes follows the muscle: it bears what the muscle lifts at the valve's largest
+/// pressure, and is never softer than the thesis's. Until all files of a rig are read it is `unwritten`.
+constexpr double unwritten = 0.0;
+
+void forget_stops(Rig& rig) {
+  rig.muscle.stop_stiffness_N_per_m = unwritten;
+  if (plant::Pair* pair = rig.pair()) pair->opposite.muscle.stop_stiffness_N_per_m = unwritten;
+}
+
+void follow_muscle(plant::Muscle& muscle, const plant::Valve& valve) {
+  if (muscle.stop_stiffness_N_per_m != unwritten) return;
+  muscle.stop_stiffness_N_per_m = plant::Muscle{}.stop_stiffness_N_per_m;
+  const plant::Braid braid(muscle);
+  const double lifts_kg = braid.largest_force_N(valve.span_pressure_Pa) / plant::gravity_m_per_s2;
+  const double stiffer = lifts_kg / braid.largest_load_kg();
+  if (stiffer > 1.0) muscle.stop_stiffness_N_per_m *= 0.01 * std::ceil(100.0 * stiffer);
+}
+
+Rig with_stops(Rig rig) {
+  follow_muscle(rig.muscle, rig.valve);
+  if (plant::Pair* pair = rig.pair()) follow_muscle(pair->opposite.muscle, pair->opposite.valve);
+  return rig;
+}
+
 /// The text of a muscle by catalogue; empty of the thesis's rigs, which are built in as they are.
 std::string_view catalogue_text(std::string_view name) {
   if (name == "festo_dmsp_10") return festo_dmsp_10;
@@ -56,6 +80,7 @@ std::string_view catalogue_text(std::string_view name) {
 
 Rig shipped_rig(std::string_view name) {
   Rig rig = name == "thesis_pair" ? plant::thesis_pair() : Rig{};
+  forget_stops(rig);
   if (const std::string_view text = catalogue_text(name); !text.empty()) {
     Problems problems;
     Chain chain;
@@ -143,6 +168,7 @@ void read_command_unit(const Source& source, const Node& map, Rig& into, Problem
 void read_changes(const Source& source, const Node& map, Rig& into, Problems& problems, Chain& chain,
                   std::span<const std::string_view> also_allowed) {
   into = {};
+  forget_stops(into);
   if (const Node* base = map.find("base")) {
     if (base->kind == Node::Kind::scalar)
       read_reference(source, *base, into, problems, chain);
@@ -176,6 +202,7 @@ void read_named(const Source& source, const Node& node, Rig& into, Problems& pro
   else
     problems.error(source, node.place,
                    fmt::format("rig must be a name, a path or a map of changes, not {}", node.kind_name()));
+  into = with_stops(std::move(into));
 }
 
 Rig read_base(const Source& source, const Node& node) {
@@ -187,7 +214,7 @@ Rig read_base(const Source& source, const Node& node) {
   if (node.kind == Node::Kind::map) {
     read(source, node);
   } else if (is_shipped(node.text)) {
-    rig = shipped_rig(node.text);
+    rig = with_stops(shipped_rig(node.text));
   } else {
     const YamlFile file = load_yaml((source.folder() / node.text).lexically_normal());
     read(file.source, file.root);
@@ -196,7 +223,7 @@ Rig read_base(const Source& source, const Node& node) {
 }
 
 Rig read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
-  if (is_shipped(name_or_path)) return shipped_rig(name_or_path);
+  if (is_shipped(name_or_path)) return with_stops(shipped_rig(name_or_path));
   std::error_code ignored;
   if (!looks_like_path(name_or_path) && !fs::exists(name_or_path, ignored))
     throw MissingInput(fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file)", name_or_path,
@@ -213,7 +240,7 @@ Rig read_rig(Source source, std::vector<InputFile>& inputs) {
   read_rig_map(file, rig, problems, chain);
   problems.raise();
   inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
-  return rig;
+  return with_stops(std::move(rig));
 }
 
 Json rig_json(const Rig& rig) {

@@ -1,5 +1,5 @@
 // Muscles by catalogue: what the program has built in is the shipped file, and every number says how well it
-// is known.
+// is known. What their threads bear where no file says it.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -44,6 +44,31 @@ TEST(Muscles, PullAboutAsTheyAreRated) {
     EXPECT_GT(braid.force_N(0.22, pressure_Pa), pulled_back_N) << name;
     EXPECT_LT(braid.force_N(0.26, pressure_Pa), pulled_back_N) << name;
   }
+}
+
+// A stop that no file writes bears all that the muscle lifts, wherever its size is written; one that a file
+// writes stays.
+TEST(Muscles, BearWhatTheyLift) {
+  const auto bears = [](const Rig& rig) {
+    const plant::Braid braid(rig.muscle);
+    return braid.largest_load_kg() * plant::gravity_m_per_s2 >=
+           braid.largest_force_N(rig.valve.span_pressure_Pa);
+  };
+  for (const char* text :
+       {"muscle: {rest_radius: 10.8 mm}", "base: thesis\nmuscle: {rest_radius: 20 mm, count: 3}",
+        "base: festo_dmsp_20\nvalve: {span_pressure: 8 bar, supply_pressure: 8 bar}",
+        "muscle: {rest_length: 60 mm}", "valve: {span_pressure: 6 bar}", "muscle: {braid_angle: 12 deg}"})
+    EXPECT_TRUE(bears(rig_of(text))) << text;
+  EXPECT_GT(rig_of("muscle: {rest_radius: 10.8 mm}").muscle.stop_stiffness_N_per_m, 3e5);
+  EXPECT_EQ(rig_of("muscle: {rest_radius: 6 mm}").muscle.stop_stiffness_N_per_m, 3e5);
+  for (const char* name : {"thesis", "thesis_pair"})
+    EXPECT_EQ(rig_of(std::string("base: ") + name).muscle.stop_stiffness_N_per_m, 3e5) << name;
+  EXPECT_EQ(rig_of("muscle: {rest_radius: 10.8 mm, stop_stiffness: 3e5 N/m}").muscle.stop_stiffness_N_per_m,
+            3e5);
+  const Rig pair =
+      rig_of("base: thesis_pair\nmechanics: {kind: pair, opposite: {muscle: {rest_radius: 12 mm}}}");
+  EXPECT_EQ(pair.muscle.stop_stiffness_N_per_m, 3e5);
+  EXPECT_TRUE(bears(opposite_rig(pair)));
 }
 
 }  // namespace
