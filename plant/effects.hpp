@@ -23,6 +23,7 @@
 #include <plant/effects/gauge_error.hpp>
 #include <plant/effects/guide_friction.hpp>
 #include <plant/effects/is_effect.hpp>
+#include <plant/effects/isometric_hysteresis.hpp>
 #include <plant/effects/muscle_leak.hpp>
 #include <plant/effects/own_laws.hpp>
 #include <plant/effects/polytropic_gas.hpp>
@@ -328,11 +329,11 @@ class EffectSet {
 template <class P>
 using EffectsOf =
     EffectSet<P, ViscousDampingOf<P>, GuideFrictionOf<P>, SpeedDependentFrictionOf<P>, BladderElasticityOf<P>,
-              BladderCreepOf<P>, BladderHysteresisOf<P>, EndCapCorrectionOf<P>, PressureThresholdOf<P>,
-              MuscleLeakOf<P>, PolytropicGasOf<P>, GasTemperatureOf<P>, ValveLagOf<P>, ValveDeadBandOf<P>,
-              ValveHysteresisOf<P>, SupplyDroopOf<P>, ExhaustRestrictionOf<P>, CommandDelayOf<P>,
-              FrictionWarmUpOf<P>, EncoderBacklashOf<P>, EncoderScaleOf<P>, ReadingDelayOf<P>,
-              GaugeErrorOf<P>, ResidualForceOf<P>>;
+              BladderCreepOf<P>, BladderHysteresisOf<P>, IsometricHysteresisOf<P>, EndCapCorrectionOf<P>,
+              PressureThresholdOf<P>, MuscleLeakOf<P>, PolytropicGasOf<P>, GasTemperatureOf<P>, ValveLagOf<P>,
+              ValveDeadBandOf<P>, ValveHysteresisOf<P>, SupplyDroopOf<P>, ExhaustRestrictionOf<P>,
+              CommandDelayOf<P>, FrictionWarmUpOf<P>, EncoderBacklashOf<P>, EncoderScaleOf<P>,
+              ReadingDelayOf<P>, GaugeErrorOf<P>, ResidualForceOf<P>>;
 using Effects = EffectsOf<double>;
 static_assert([]<class... E>(const std::tuple<E...>*) {
   return (IsEffect<E> && ...);

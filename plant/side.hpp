@@ -12,7 +12,6 @@
 #include <concepts>
 #include <numbers>
 
-#include <plant/flow.hpp>
 #include <plant/friction.hpp>
 #include <plant/geometry.hpp>
 #include <plant/restriction.hpp>
@@ -121,6 +120,9 @@ class SideOf {
             held.reference_pressure_Pa,
             braid_.force_N(e, state.muscle_pressure_Pa) * share_};
   }
+  template <class S>
+  S muscle_pressure_rate_Pa_per_s(const Stroke<S>& stroke, const SideState<S>& state,
+                                  const SideMoment<S>& now) const;
   template <class S>
   S flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, const S& hose_flow) const;
   template <class S, class H>
@@ -279,8 +281,9 @@ template <class P>
 template <class S, class H>
 void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                          const HeldSideOf<H>& held, const S& supply_flow, SideMoment<S>& now) const {
-  const auto of_effects =
-      rig_.effects.memory_rates(instant(stroke, state, held, now), inflow(stroke, now, supply_flow), memory);
+  Inflow<S> all = inflow(stroke, now, supply_flow);
+  all.pressure_rate_Pa_per_s = muscle_pressure_rate_Pa_per_s(stroke, state, now);
+  const auto of_effects = rig_.effects.memory_rates(instant(stroke, state, held, now), all, memory);
   std::copy(of_effects.begin(), of_effects.end(), now.memory_rates.begin());
   now.memory_rates.back() =
       swings_ ? S(catching_up_per_s_ * (now.pressure_error_Pa - memory.back())) : S(0.0);
@@ -332,20 +335,23 @@ template <class P>
 template <class S>
 SideState<S> SideOf<P>::rates(const Stroke<S>& stroke, const SideState<S>& state,
                               const SideMoment<S>& now) const {
-  const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
-  const P& RT = gas_energy_J_per_kg_;
   SideState<S> dt;
   dt.valve_pressure_Pa = valve_stiffness_Pa_per_kg_ * (now.supply_flow - now.vent_flow - now.hose_flow);
-  dt.muscle_pressure_Pa =
-      (RT * now.hose_flow - muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) / now.volume_m3;
+  if (effects_) dt.valve_pressure_Pa = rig_.effects.gas_exponent() * dt.valve_pressure_Pa;
+  dt.muscle_pressure_Pa = muscle_pressure_rate_Pa_per_s(stroke, state, now);
   dt.bristle_m = now.bristle_rate_m_per_s;
-  if (effects_) {
-    const P n = rig_.effects.gas_exponent();
-    dt.valve_pressure_Pa = n * dt.valve_pressure_Pa;
-    dt.muscle_pressure_Pa =
-        n * (dt.muscle_pressure_Pa - RT * now.leak_flow / now.volume_m3) + now.heating_Pa_per_s;
-  }
   return dt;
+}
+
+template <class P>
+template <class S>
+S SideOf<P>::muscle_pressure_rate_Pa_per_s(const Stroke<S>& stroke, const SideState<S>& state,
+                                           const SideMoment<S>& now) const {
+  const S muscle_Pa = state.muscle_pressure_Pa + rig_.gas.atmosphere_Pa;
+  const P& RT = gas_energy_J_per_kg_;
+  const S rate = (RT * now.hose_flow - muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) / now.volume_m3;
+  if (!effects_) return rate;
+  return rig_.effects.gas_exponent() * (rate - RT * now.leak_flow / now.volume_m3) + now.heating_Pa_per_s;
 }
 
 }  // namespace mckibben::plant

@@ -67,6 +67,7 @@ struct Inflow {
   S supply_kg_per_s;                  ///< drawn from the supply
   S hose_kg_per_s, leak_kg_per_s;     ///< into the muscle, and out of it besides
   S volume_m3, volume_rate_m3_per_s;  ///< V, dV/dt
+  S pressure_rate_Pa_per_s{};         ///< dP_m/dt; to a `memory_rate` only
 };
 
 /// What effects pull with [N].

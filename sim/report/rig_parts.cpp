@@ -19,6 +19,7 @@ constexpr auto sits_at = [] {
                                                            {"bladder_elasticity", muscle},
                                                            {"bladder_creep", muscle},
                                                            {"bladder_hysteresis", muscle},
+                                                           {"isometric_hysteresis", muscle},
                                                            {"end_cap_correction", muscle},
                                                            {"pressure_threshold", muscle},
                                                            {"muscle_leak", muscle},

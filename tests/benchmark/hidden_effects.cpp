@@ -61,6 +61,7 @@ constexpr Size sizes[] = {{"viscous_damping", "damping", 0, 25, 120, nullptr, 0}
                           {"bladder_elasticity", "stiffness", 0, 60, 300, nullptr, 0},
                           {"bladder_creep", "stiffness", 0, 60, 250, "time", 1.5},
                           {"bladder_hysteresis", "force", 0, 3, 12, "stroke", 0.008},
+                          {"isometric_hysteresis", "pressure", 0, 4e3, 1.5e4, "turn", 8e3},
                           {"end_cap_correction", "slope", 0, 0.004, 0.015, nullptr, 0},
                           {"pressure_threshold", "pressure", 0, 1e4, 4e4, nullptr, 0},
                           {"muscle_leak", "conductance", 0, 5e-11, 2e-10, nullptr, 0},

@@ -18,13 +18,13 @@ TEST(Catalogue, HasTheNamesThatResultsAreComparedBy) {
   std::set<std::string_view> names;
   std::apply([&](const auto&... effect) { (names.insert(effect.name), ...); }, Effects::Table{});
   EXPECT_EQ(names.size(), Effects::count);
-  for (const char* name : {"viscous_damping",     "guide_friction",     "speed_dependent_friction",
-                           "bladder_elasticity",  "bladder_creep",      "bladder_hysteresis",
-                           "end_cap_correction",  "pressure_threshold", "muscle_leak",
-                           "polytropic_gas",      "gas_temperature",    "valve_lag",
-                           "valve_dead_band",     "valve_hysteresis",   "supply_droop",
-                           "exhaust_restriction", "friction_warm_up",   "encoder_backlash",
-                           "encoder_scale",       "residual_law"})
+  for (const char* name : {"viscous_damping",     "guide_friction",       "speed_dependent_friction",
+                           "bladder_elasticity",  "bladder_creep",        "bladder_hysteresis",
+                           "end_cap_correction",  "pressure_threshold",   "muscle_leak",
+                           "polytropic_gas",      "gas_temperature",      "valve_lag",
+                           "valve_dead_band",     "valve_hysteresis",     "supply_droop",
+                           "exhaust_restriction", "friction_warm_up",     "encoder_backlash",
+                           "encoder_scale",       "isometric_hysteresis", "residual_law"})
     EXPECT_TRUE(names.contains(name)) << name;
   EXPECT_EQ(ResidualForce::variants.size(), 0u);
 }
@@ -204,6 +204,29 @@ TEST(Catalogue, HysteresisOfTheBladderGoesByTheWayAlone) {
     now.speed_m_per_s = -speed_m_per_s;
     EXPECT_NEAR(rubber.pull_N(now, go(far, 0.01 * std::log(2.0))), 0.0, 1e-3);
   }
+}
+
+// After a long rise the force is that of P - P_h, after a long fall that of P + P_h, and a reversal by
+// P_z ln 2 brings it between them; below P_h it is none while P rises.
+TEST(Catalogue, IsometricHysteresisFollowsThePressure) {
+  const IsometricHysteresis lag{.pressure_Pa = 15.6e3, .turn_Pa = 5e3};
+  Instant<double> now = Chance().instant();
+  now.muscle_pressure_Pa = 3e5;
+  now.braid_force_N = 300.0;
+  const auto go = [&](double wound, double way_Pa) {
+    constexpr int steps = 10000;
+    Inflow<double> inflow{};
+    inflow.pressure_rate_Pa_per_s = way_Pa;
+    for (int i = 0; i < steps; ++i) wound += lag.memory_rate(now, inflow, wound) / steps;
+    return wound;
+  };
+  const double risen = go(0.0, 2e5), fallen = go(risen, -2e5);
+  EXPECT_NEAR(300.0 + lag.pull_N(now, risen), 300.0 * (3e5 - 15.6e3) / 3e5, 1e-9);
+  EXPECT_NEAR(300.0 + lag.pull_N(now, fallen), 300.0 * (3e5 + 15.6e3) / 3e5, 1e-9);
+  EXPECT_NEAR(lag.pull_N(now, go(risen, -5e3 * std::log(2.0))), 0.0, 1e-2);
+  now.muscle_pressure_Pa = 5e3;
+  now.braid_force_N = 5.0;
+  EXPECT_NEAR(5.0 + lag.pull_N(now, risen), 0.0, 1e-9);
 }
 
 // dP/P = -n dV/V where no gas flows.

@@ -19,6 +19,7 @@ Rig beset() {
   rig.effects.get<MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
   rig.effects.get<PressureThreshold>().pressure_Pa = 1e4;
   rig.effects.get<SpeedDependentFriction>().ratio = 0.7;
+  rig.effects.get<IsometricHysteresis>().pressure_Pa = 1.5e4;
   return rig;
 }
 
