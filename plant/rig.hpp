@@ -218,12 +218,12 @@ struct RigOf {
       return volume_m3 * difference_Pa / (volume_rate_m3_per_s_Pa * conductance_m3_per_s_Pa * supply_Pa);
     };
     const double conductance = std::max(valve.conductance_m3_per_s_Pa,
-                                        valve.is_regulator() ? valve.venting_conductance_m3_per_s_Pa : 0.0);
-    const double band_Pa = valve.is_regulator() ? hose.linear_zone_Pa : valve.proportional_band_Pa;
+                                        valve.is_servo() ? 0.0 : valve.venting_conductance_m3_per_s_Pa);
+    const double band_Pa = valve.is_servo() ? valve.proportional_band_Pa : hose.linear_zone_Pa;
     if (filling_s(conductance, valve.volume_m3, band_Pa) < quickest_s)
       report(
           "valve",
-          valve.is_regulator()
+          !valve.is_servo()
               ? "open, it would move its volume by a whole linear_zone of the hose in less than 1 us: take a "
                 "smaller conductance, a larger volume or a wider linear_zone"
               : "the open valve would move its volume by a whole proportional_band in less than 1 us: take a "

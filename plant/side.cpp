@@ -27,6 +27,12 @@ double SideOf<P>::reference_slope_Pa_per_mA(double current_mA) const {
 }
 
 template <class P>
+double SideOf<P>::way(double current_mA) const {
+  const Valve& valve = rig_.valve;
+  return std::clamp((current_mA - valve.zero_command) / (valve.span_command - valve.zero_command), 0.0, 1.0);
+}
+
+template <class P>
 double SideOf<P>::air_kg(double contraction_ratio, const SideState<double>& state) const {
   const double atmosphere = rig_.gas.atmosphere_Pa;
   return ((state.valve_pressure_Pa + atmosphere) * rig_.valve.volume_m3 +

@@ -83,6 +83,8 @@ class SideOf {
   }
 
   double reference_pressure_Pa(double current_mA) const;
+  /// How far a command is on the way from zero_command to span_command, 0 to 1.
+  double way(double current_mA) const;
   /// How much more a mA asks for [Pa/mA]; nothing beyond the valve's trimmed range.
   double reference_slope_Pa_per_mA(double current_mA) const;
   /// Gas [kg] in valve and muscle, and in the valve alone, at the walls' temperature.
@@ -129,6 +131,9 @@ class SideOf {
   void valve_flows(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                    const HeldSideOf<H>& held, SideMoment<S>& now) const;
   template <class S, class H>
+  void switched_flows(const SideState<S>& state, const SideMemory<S>& memory, const HeldSideOf<H>& held,
+                      SideMoment<S>& now) const;
+  template <class S, class H>
   void given_flows(const Stroke<S>& stroke, const SideState<S>& state, const HeldSideOf<H>& held,
                    SideMoment<S>& now) const;
   template <class S>
@@ -143,9 +148,10 @@ class SideOf {
   RigOf<P> rig_;
   BraidOf<P> braid_;
   RestrictionOf<P> valve_, vent_, hose_, unit_flow_;
-  bool effects_, regulates_, swings_;
+  bool effects_, regulates_, swings_, switches_;
   double count_, share_;    // muscles side by side; 1/count
   FrictionOf<P> friction_;  // of all of them, by the contact surface of one
+  P leak_kg_per_s_Pa_;      // of valves that are shut
   P weight_N_, gas_energy_J_per_kg_, valve_stiffness_Pa_per_kg_, supply_Pa_;
   P quickness_per_s_, catching_up_per_s_;  // of a regulator: dP_v/dt for an error, the memory's for its own
 };
@@ -162,9 +168,11 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       effects_(!rig.effects.absent()),
       regulates_(rig.valve.is_regulator()),
       swings_(rig.valve.swings()),
+      switches_(rig.valve.is_on_off()),
       count_(rig.muscle.count),
       share_(1.0 / count_),
       friction_(side_by_side(rig.friction, count_)),
+      leak_kg_per_s_Pa_(restriction(rig, rig.valve.leak_m3_per_s_Pa).conductance_kg_per_s_Pa),
       weight_N_(weight_N),
       gas_energy_J_per_kg_(rig.gas.gas_constant_J_per_kg_K * rig.gas.temperature_K),
       valve_stiffness_Pa_per_kg_(gas_energy_J_per_kg_ / rig.valve.volume_m3),
@@ -172,6 +180,8 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       quickness_per_s_(1.0),
       catching_up_per_s_(1.0) {
   if constexpr (std::same_as<P, double>) rig_.effects.laws.take_places();  // those of lanes have theirs
+  const P& venting = rig.valve.venting_critical_ratio;
+  if (switches_) vent_.critical_ratio = select(venting > 0.0, venting, rig.valve.critical_ratio);
   const P swing_per_s = 2.0 * std::numbers::pi * rig.valve.natural_frequency_Hz;
   if (swings_) catching_up_per_s_ = 2.0 * rig.valve.damping * swing_per_s;
   if (regulates_)
@@ -233,6 +243,27 @@ void SideOf<P>::valve_flows(const Stroke<S>& stroke, const SideState<S>& state, 
   now.vent_flow = select(fills, S(0.0), S(-flow));
 }
 
+// One valve to the supply, one to the atmosphere, each open or shut; both may be either at once.
+template <class P>
+template <class S, class H>
+void SideOf<P>::switched_flows(const SideState<S>& state, const SideMemory<S>& memory,
+                               const HeldSideOf<H>& held, SideMoment<S>& now) const {
+  const P& atmosphere = rig_.gas.atmosphere_Pa;
+  const S valve_Pa = state.valve_pressure_Pa + atmosphere;
+  S supply_Pa = S(supply_Pa_);
+  if (effects_) supply_Pa = supply_Pa - rig_.effects.supply_drop_Pa(memory);
+  const auto through = [this](const RestrictionOf<P>& open, const H& share, const S& from, const S& to) {
+    RestrictionOf<P> leak = open;
+    leak.conductance_kg_per_s_Pa = leak_kg_per_s_Pa_;
+    return S(share * open.flow_kg_per_s(from, to) + (1.0 - share) * leak.flow_kg_per_s(from, to));
+  };
+  now.pressure_error_Pa = S(0.0);
+  now.wanted_opening = now.valve_opening = S(held.fills - held.vents);
+  now.hose_flow = hose_.flow_kg_per_s(valve_Pa, S(state.muscle_pressure_Pa + atmosphere));
+  now.supply_flow = through(valve_, held.fills, supply_Pa, valve_Pa);
+  now.vent_flow = through(vent_, held.vents, valve_Pa, S(atmosphere));
+}
+
 // Whatever keeps a given pressure brings the gas that this takes.
 template <class P>
 template <class S, class H>
@@ -267,10 +298,12 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
   if (effects_)
     now.leak_flow = count_ * rig_.effects.outflow_kg_per_s(instant(stroke, state, held, now), memory);
 
-  if (held.given == GivenPressure::none)
-    valve_flows(stroke, state, memory, held, now);
-  else
+  if (held.given != GivenPressure::none)
     given_flows(stroke, state, held, now);
+  else if (switches_)
+    switched_flows(state, memory, held, now);
+  else
+    valve_flows(stroke, state, memory, held, now);
   now.heating_Pa_per_s = S(0.0);
   if (effects_ && held.given != GivenPressure::muscle)
     now.heating_Pa_per_s = rig_.effects.heating_Pa_per_s(instant(stroke, state, held, now),

@@ -92,6 +92,7 @@ struct HeldSideOf {
   P current_speed_mA_per_s = 0.0;  ///< nu of T 4.6: change of the held current over the last tick
   GivenPressure given = GivenPressure::none;
   P pressure_rate_Pa_per_s = 0.0;  ///< how fast a given pressure runs to its next value
+  P fills = 0.0, vents = 0.0;      ///< of valves that are open or shut: 1 or 0
 };
 using HeldSide = HeldSideOf<double>;
 

@@ -12,12 +12,13 @@
 namespace mckibben::plant {
 
 /// What keeps the pressure: the thesis's servo valve, whose proportional band makes its dynamics, or a
-/// regulator of which a data sheet tells the lag.
-enum class ValveKind { servo, regulator };
+/// regulator of which a data sheet tells the lag. Or nothing does: valves that are open or shut.
+enum class ValveKind { servo, regulator, on_off };
 constexpr auto names(ValveKind) {
   using enum ValveKind;
   return std::array{std::pair{servo, std::string_view{"servo"}},
-                    std::pair{regulator, std::string_view{"regulator"}}};
+                    std::pair{regulator, std::string_view{"regulator"}},
+                    std::pair{on_off, std::string_view{"on_off"}}};
 }
 /// Every valve is a servo valve unless it says otherwise.
 constexpr bool absent(ValveKind kind) {
@@ -30,6 +31,22 @@ constexpr auto names(RegulatorLag) {
   using enum RegulatorLag;
   return std::array{std::pair{first_order, std::string_view{"first_order"}},
                     std::pair{second_order, std::string_view{"second_order"}}};
+}
+
+/// Valves that are open or shut: one that fills and one that vents, or one that does either.
+enum class Ports { two, three };
+constexpr auto names(Ports) {
+  using enum Ports;
+  return std::array{std::pair{two, std::string_view{"2/2"}}, std::pair{three, std::string_view{"3/2"}}};
+}
+
+/// What a command is to them: which one opens, or how much of each period of a pulse-width modulation, edge
+/// by edge or as a valve that is open by so much.
+enum class Switching { edges, pwm, averaged };
+constexpr auto names(Switching) {
+  using enum Switching;
+  return std::array{std::pair{edges, std::string_view{"edges"}}, std::pair{pwm, std::string_view{"pwm"}},
+                    std::pair{averaged, std::string_view{"averaged"}}};
 }
 
 /// From 4 to 20 mA.
@@ -62,7 +79,16 @@ struct ValveOf {
   P venting_conductance_m3_per_s_Pa = 0.0;
   P dead_band_Pa = 0.0;
   P repeatability_Pa = 0.0;
+  // Of valves that are open or shut.
+  Ports ports = Ports::two;
+  Switching switching = Switching::edges;
+  P pwm_frequency_Hz = 0.0;
+  P venting_critical_ratio = 0.0;
+  P opening_delay_s = 0.0, closing_delay_s = 0.0;
+  P leak_m3_per_s_Pa = 0.0;
 
+  bool is_servo() const { return kind == ValveKind::servo; }
+  bool is_on_off() const { return kind == ValveKind::on_off; }
   bool is_regulator() const { return kind == ValveKind::regulator; }
   /// Whether its pressure swings: then it remembers how fast it was changing.
   bool swings() const { return is_regulator() && lag == RegulatorLag::second_order; }
@@ -79,22 +105,41 @@ struct ValveOf {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("kind", self.kind, "servo (if left out), or a regulator by its data sheet");
+    visit("kind", self.kind,
+          "servo (if left out), a regulator by its data sheet, or valves that are open or shut");
     visit("zero_command", self.zero_command, "mA", 0.0, 100.0,
           "command at zero pressure: mA, V or bar, as the valve takes it, and then all commands of the rig");
     visit("span_command", self.span_command, "mA", 0.1, 100.0, "command at span pressure, in the same unit");
-    visit("zero_pressure", self.zero_pressure_Pa, "Pa", 0.0, 2e6, "gauge pressure at zero_command (T 3.2)");
-    visit("span_pressure", self.span_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure at span_command (T 3.2)");
+    if (ListsAll<Visitor> || !self.is_on_off()) {
+      visit("zero_pressure", self.zero_pressure_Pa, "Pa", 0.0, 2e6, "gauge pressure at zero_command (T 3.2)");
+      visit("span_pressure", self.span_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure at span_command (T 3.2)");
+    }
     visit("supply_pressure", self.supply_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure of the supply (T 3.1)");
     visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 1e-12, 1e-5,
           "sonic conductance of each proportional valve, fully open, C_v");
     visit("critical_ratio", self.critical_ratio, "1", 0.01, 0.9,
           "critical pressure ratio of valve and hose, b_c");
-    if (ListsAll<Visitor> || !self.is_regulator())
+    if (ListsAll<Visitor> || self.is_servo())
       visit("proportional_band", self.proportional_band_Pa, "Pa", 10.0, 2e6,
             "pressure error that opens fully");
     visit("volume", self.volume_m3, "m3", 1e-7, 1e-2, "controlled volume, V_v");
     if (ListsAll<Visitor> || self.is_regulator()) fields_of_regulator(self, visit);
+    if (ListsAll<Visitor> || !self.is_servo())
+      visit("venting_conductance", self.venting_conductance_m3_per_s_Pa, "m3/(s.Pa)", 0.0, 1e-5,
+            "of a regulator, of on_off: sonic conductance where it vents; 0: that of filling, C_v");
+    if (ListsAll<Visitor> || self.is_on_off()) fields_of_on_off(self, visit);
+  }
+  template <class Self, class Visitor>
+  static void fields_of_on_off(Self& self, Visitor& visit) {
+    visit("ports", self.ports, "of on_off: one that fills and one that vents, or one for both");
+    visit("switching", self.switching, "of on_off: what a command means (docs/equations.md)");
+    if (ListsAll<Visitor> || self.switching == Switching::pwm)
+      visit("pwm_frequency", self.pwm_frequency_Hz, "Hz", 0.1, 1e4, "of switching: pwm");
+    visit("venting_critical_ratio", self.venting_critical_ratio, "1", 0.0, 0.9,
+          "of on_off; 0: critical_ratio");
+    visit("opening_delay", self.opening_delay_s, "s", 0.0, 10.0, "of on_off; shorter commands do nothing");
+    visit("closing_delay", self.closing_delay_s, "s", 0.0, 10.0, "of on_off");
+    visit("leak", self.leak_m3_per_s_Pa, "m3/(s.Pa)", 0.0, 1e-5, "of on_off: conductance while shut");
   }
   template <class Self, class Visitor>
   static void fields_of_regulator(Self& self, Visitor& visit) {
@@ -105,16 +150,27 @@ struct ValveOf {
       visit("natural_frequency", self.natural_frequency_Hz, "Hz", 1e-3, 1e3, "of a lag of second order, f");
       visit("damping", self.damping, "1", 0.01, 100.0, "of a lag of second order, D; 1: no overshoot");
     }
-    visit("venting_conductance", self.venting_conductance_m3_per_s_Pa, "m3/(s.Pa)", 0.0, 1e-5,
-          "of a regulator: sonic conductance where it vents; 0: that of filling, C_v");
     visit("dead_band", self.dead_band_Pa, "Pa", 0.0, 2e5,
           "of a regulator: pressure errors, either way, about which it does nothing");
     visit("repeatability", self.repeatability_Pa, "Pa", 0.0, 1e5,
-          "of a regulator: the ± (one deviation) within which the same command gives the same pressure; "
-          "counted in a diagnosis's noise floor, not simulated");
+          "of a regulator: ± (one deviation) of the pressure at one command; in a diagnosis's noise floor, "
+          "not simulated");
+  }
+  /// What no file says of valves that are open or shut: their line is of what they can reach.
+  void resolve() {
+    if (!is_on_off()) return;
+    zero_pressure_Pa = 0.0;
+    span_pressure_Pa = supply_pressure_Pa;
   }
   template <class Report>
   void rules(Report& report) const {
+    if (is_on_off() && leak_m3_per_s_Pa >= conductance_m3_per_s_Pa)
+      report("leak", "a shut valve must pass less than an open one, conductance");
+    if (is_on_off() && switching == Switching::pwm && pwm_frequency_Hz == 0.0)
+      report("pwm_frequency", "a duty is of a period: say its frequency, as 50 Hz");
+    if (is_on_off() && switching == Switching::averaged && (opening_delay_s > 0.0 || closing_delay_s > 0.0))
+      report("switching",
+             "an averaged duty has no edges that delays could shift: say pwm, or leave them out");
     if (span_command <= zero_command) report("span_command", "must be above zero_command");
     if (span_pressure_Pa <= zero_pressure_Pa) report("span_pressure", "must be above zero_pressure");
     if (supply_pressure_Pa < span_pressure_Pa) report("supply_pressure", "must not be below span_pressure");

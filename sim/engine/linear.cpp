@@ -88,6 +88,8 @@ class Linearising {
     const auto seed = [&](const plant::HeldSide& given, plant::HeldSideOf<Number>& seeded) {
       seeded.reference_pressure_Pa = seeds.next(given.reference_pressure_Pa);
       seeded.current_speed_mA_per_s = seeds.next(given.current_speed_mA_per_s);
+      seeded.fills = Number(given.fills);
+      seeded.vents = Number(given.vents);
     };
     seed(held, inputs);
     if constexpr (L::sides == 2) seed(held.opposite, inputs.opposite);

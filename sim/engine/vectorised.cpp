@@ -231,6 +231,8 @@ void put_side(const plant::HeldSide& held, std::size_t lane, plant::HeldSideOf<L
   all.current_speed_mA_per_s.set(lane, held.current_speed_mA_per_s);
   all.given = held.given;
   all.pressure_rate_Pa_per_s.set(lane, held.pressure_rate_Pa_per_s);
+  all.fills.set(lane, held.fills);
+  all.vents.set(lane, held.vents);
 }
 
 }  // namespace

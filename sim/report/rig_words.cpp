@@ -41,6 +41,10 @@ std::string valve(const plant::Valve& valve) {
       fmt::format("{:g} to {:g} {} for {} to {}; supply {}", valve.zero_command, valve.span_command,
                   name_of(valve.command_unit), readable(valve.zero_pressure_Pa, "Pa"),
                   readable(valve.span_pressure_Pa, "Pa"), readable(valve.supply_pressure_Pa, "Pa"));
+  if (valve.is_on_off())
+    says = fmt::format("open or shut ({}), by {:g} to {:g} {}; supply {}", name_of(valve.ports),
+                       valve.zero_command, valve.span_command, name_of(valve.command_unit),
+                       readable(valve.supply_pressure_Pa, "Pa"));
   if (valve.swings())
     says += fmt::format("; a regulator of {} and damping {:.3g}", readable(valve.natural_frequency_Hz, "Hz"),
                         valve.damping);

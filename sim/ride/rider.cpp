@@ -29,7 +29,7 @@ Drive corrected(const plant::Plant& plant, Drive drive) {
 }
 
 /// What a side's valve has from this instant on: the command, or where commands are late one from before.
-void feel(const plant::Side& side, Command command, double now_s, PastCommands& past,
+void feel(const plant::Side& side, Command command, double now_s, PastCommands& past, Switches& valves,
           plant::Effects::Plays& plays, plant::HeldSide& held) {
   if (const double late_s = side.rig().effects.command_delay_s(); late_s > 0.0) {
     const Given& felt = past.felt(now_s, late_s);
@@ -37,16 +37,18 @@ void feel(const plant::Side& side, Command command, double now_s, PastCommands& 
     held.current_speed_mA_per_s = felt.speed_mA_per_s;
   }
   held.reference_pressure_Pa = reference_Pa(side, command, plays);
+  if (side.rig().valve.is_on_off())
+    valves.follow(side, command.current_mA + command.stray_current_mA, now_s, held);
 }
 
 /// What is held of a side until the next instant, `length_s` away.
 void hold_side(const plant::Side& side, const Command& before, const Command& now, double now_s,
-               const plant::SideState<double>& state, double length_s, PastCommands& past,
+               const plant::SideState<double>& state, double length_s, PastCommands& past, Switches& valves,
                plant::Effects::Plays& plays, plant::HeldSide& held) {
   held.current_speed_mA_per_s = (now.current_mA - before.current_mA) / length_s;
   if (side.rig().effects.command_delay_s() > 0.0)
     past.give({now_s, now.current_mA, held.current_speed_mA_per_s});
-  feel(side, now, now_s, past, plays, held);
+  feel(side, now, now_s, past, valves, plays, held);
   held.given = now.given();
   if (held.given == plant::GivenPressure::muscle)
     held.pressure_rate_Pa_per_s = (*now.muscle_pressure_Pa - state.muscle_pressure_Pa) / length_s;
@@ -76,7 +78,9 @@ void Rider::start(const Drive& given, double at_s) {
   now.opposite_commands.begin(drive.opposite.current_mA);
   plant_.rig().effects.wheel_m(0.0, now.plays);
   const auto full = [](const plant::Side& side, const Command& command, plant::Effects::Plays& plays) {
-    const double reference = reference_Pa(side, command, plays);
+    // Valves that are open or shut keep no pressure: such a rig begins vented.
+    const double wanted = reference_Pa(side, command, plays),
+                 reference = side.rig().valve.is_on_off() ? 0.0 : wanted;
     return command.muscle_pressure_Pa.value_or(command.valve_pressure_Pa.value_or(reference));
   };
   plant::Held& held = now.held;
@@ -106,11 +110,11 @@ void Rider::hold(const Drive& given, double until_s) {
   const double length_s = until_s - now.time_s;
   plant::Held& held = now.held;
   engine::Flow& flow = now.flow;
-  hold_side(plant_.side(), now.drive, drive, now.time_s, flow.state.side, length_s, now.commands, now.plays,
-            held);
+  hold_side(plant_.side(), now.drive, drive, now.time_s, flow.state.side, length_s, now.commands,
+            now.switches, now.plays, held);
   if (plant_.opposite())
     hold_side(*plant_.opposite(), now.drive.opposite, drive.opposite, now.time_s, flow.state.opposite,
-              length_s, now.opposite_commands, now.opposite_plays, held.opposite);
+              length_s, now.opposite_commands, now.opposite_switches, now.opposite_plays, held.opposite);
   held.length_is_given = drive.contraction_ratio.has_value();
   held.joint_force_N = drive.joint_force_N;
   if (drive.contraction_ratio) {
@@ -135,22 +139,24 @@ void Rider::judge_slip() {
 }
 
 double Rider::next_s() const {
-  const auto next_s = [&](const plant::Side& side, const PastCommands& past) {
+  const auto next_s = [&](const plant::Side& side, const PastCommands& past, const Switches& valves) {
     const double late_s = side.rig().effects.command_delay_s();
-    return late_s > 0.0 ? past.next_s(now.time_s, late_s) : now.until_s;
+    const double felt_s = late_s > 0.0 ? past.next_s(now.time_s, late_s) : now.until_s;
+    return std::min(felt_s, valves.next_s());
   };
-  double soonest_s = next_s(plant_.side(), now.commands);
-  if (plant_.opposite()) soonest_s = std::min(soonest_s, next_s(*plant_.opposite(), now.opposite_commands));
+  double soonest_s = next_s(plant_.side(), now.commands, now.switches);
+  if (plant_.opposite())
+    soonest_s = std::min(soonest_s, next_s(*plant_.opposite(), now.opposite_commands, now.opposite_switches));
   return soonest_s < now.until_s - same_instant_s ? soonest_s : now.until_s;
 }
 
 bool Rider::arrive(double at_s) {
   now.time_s = at_s;
   if (at_s < now.until_s) {
-    feel(plant_.side(), now.drive, at_s, now.commands, now.plays, now.held);
+    feel(plant_.side(), now.drive, at_s, now.commands, now.switches, now.plays, now.held);
     if (plant_.opposite())
-      feel(*plant_.opposite(), now.drive.opposite, at_s, now.opposite_commands, now.opposite_plays,
-           now.held.opposite);
+      feel(*plant_.opposite(), now.drive.opposite, at_s, now.opposite_commands, now.opposite_switches,
+           now.opposite_plays, now.held.opposite);
     judge_slip();
     return false;
   }

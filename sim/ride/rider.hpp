@@ -18,6 +18,7 @@
 #include <plant/plant.hpp>
 #include <sim/engine/problem.hpp>
 #include <sim/ride/past.hpp>
+#include <sim/ride/switch.hpp>
 
 namespace mckibben::ride {
 
@@ -83,6 +84,7 @@ class Rider {
     double time_s = 0.0, until_s = 0.0;
     Drive drive{};                                 ///< that was held last, pressures as they are
     PastCommands commands{}, opposite_commands{};  ///< where something makes them late
+    Switches switches{}, opposite_switches{};      ///< of valves that are open or shut
     PastValues rises{};
     std::vector<PastValues> late{};  ///< of other sensors that are late, by muscle and signal
     bool reads = true;               ///< a law of the user's own may make no number of a reading
@@ -91,7 +93,8 @@ class Rider {
     template <class Self, class Visitor>
     static void members(Self& self, Visitor& visit) {
       visit(self.flow, self.held, self.plays, self.opposite_plays, self.reading, self.time_s, self.until_s,
-            self.drive, self.commands, self.opposite_commands, self.rises, self.late, self.reads);
+            self.drive, self.commands, self.opposite_commands, self.switches, self.opposite_switches,
+            self.rises, self.late, self.reads);
     }
   };
 

@@ -77,7 +77,7 @@ class Moving {
     state.side.valve_pressure_Pa = need.valve_Pa;
     const plant::Valve& valve = rig_.valve;
     const double most_Pa =
-        valve.is_regulator() ? valve.span_pressure_Pa - valve.zero_pressure_Pa : valve.proportional_band_Pa;
+        valve.is_servo() ? valve.proportional_band_Pa : valve.span_pressure_Pa - valve.zero_pressure_Pa;
     const double opened_Pa = root(
         [&](double ahead_Pa) {
           held.reference_pressure_Pa = need.valve_Pa + direction_ * ahead_Pa;
@@ -142,6 +142,7 @@ class Moving {
     state.side.valve_pressure_Pa = need.valve_Pa;
     Held held;
     held.reference_pressure_Pa = direction_ > 0.0 ? rig_.valve.span_pressure_Pa : rig_.valve.zero_pressure_Pa;
+    (direction_ > 0.0 ? held.fills : held.vents) = 1.0;
     return direction_ * valve_flow(plant_.moment(state, held)) - need.valve_flow;
   }
 
