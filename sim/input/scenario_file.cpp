@@ -85,7 +85,19 @@ class ScenarioChecker {
     const Node* rig = root_.find("rig");
     const Place place = rig != nullptr ? rig->place : root_.place;
     check_dac(scenario_.rig, source_, place, problems_);
+    if (const std::string keys = unknown_keys(scenario_.rig); !keys.empty())
+      problems_.warning(
+          source_, place,
+          fmt::format("these values of the rig are ± unknown, so results are one guess of many: {}", keys));
     if (pair() != nullptr) check_dac(opposite(), source_, place, problems_);
+  }
+
+  /// Keys that are written as ± unknown.
+  static std::string unknown_keys(const plant::Rig& rig) {
+    std::vector<std::string_view> keys;
+    for (const auto& [path, deviation] : rig.spreads)
+      if (std::isinf(deviation)) keys.push_back(path);
+    return join_few(keys);
   }
 
   void check_currents() {

@@ -91,6 +91,18 @@ TEST(Scenario, WarnsOfRisk) {
   EXPECT_NE(warnings[0].message.find("risk to the muscle (T 2.3)"), std::string::npos);
 }
 
+TEST(Scenario, WarnsOfValuesThatNobodyKnows) {
+  std::string text = good_scenario;
+  const std::string angle = "braid_angle: 21 deg}";
+  text.replace(text.find(angle), angle.size(), "braid_angle: 21 deg ± unknown, end_correction: 1.3 ± 1 %}");
+  std::vector<Problem> warnings;
+  read_text(text, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].severity, Severity::warning);
+  EXPECT_TRUE(warnings[0].message.ends_with("so results are one guess of many: muscle.braid_angle"))
+      << warnings[0].message;
+}
+
 TEST(Scenario, RecordedCurrentIsLoaded) {
   const std::string text = good_scenario.substr(0, good_scenario.find("noise:")) +
                            "  - {kind: recorded_current, file: tests/bad/good.csv}\n";
