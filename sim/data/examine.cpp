@@ -256,7 +256,12 @@ void require_enough(const domain::Dataset& data, const std::vector<bool>& left_o
   for (std::size_t i = 0; i < data.runs.size(); ++i)
     if (!left_out[i]) loads_kg.push_back(data.runs[i].load_kg);
   const domain::Judged judged = data.judged();
-  if (loads_kg.size() < of_readings.least_runs)
+  if (loads_kg.empty())
+    findings.push_back({.message =
+                            "no run is usable: mend what is said of each, name another file or column, "
+                            "or measure again",
+                        .severity = Severity::unusable});
+  else if (loads_kg.size() < of_readings.least_runs)
     findings.push_back(
         {.message = fmt::format(
              "{} usable run{}: too few to choose on some and test on others; at least four runs would help, "
