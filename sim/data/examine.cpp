@@ -11,6 +11,7 @@
 #include <sim/data/examine.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/odd_readings.hpp>
+#include <sim/data/plausible.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
 
@@ -135,12 +136,13 @@ class Readings {
     const Series sharpest = sharpest_nearby(model, data_.row_s());
     const auto absent = std::count(masked.begin(), masked.end(), true);  // no fault: read at other stamps
     range_ends(i);
-    mask_spikes(i, reading(), values, model, count_);
-    stand_still(i, stills(values, model, count_, data_.row_s()));
+    const double count = bench_ ? count_ : std::max(count_, coarse_step(data_, data_.runs[i], values));
+    mask_spikes(i, reading(), values, model, count);
+    stand_still(i, stills(values, model, count, data_.row_s()));
     if (result_.left_out[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true) - absent;
     const auto read = static_cast<std::ptrdiff_t>(masked.size()) - absent;
-    if (const auto row = lost_counts(values, sharpest, masked, count_))
+    if (const auto row = lost_counts(values, sharpest, masked, count))
       leave_out(i, lost_in_words(i, values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > of_readings.most_masked * static_cast<double>(read) || read == 0)
       leave_out(i, "too little of it is left");

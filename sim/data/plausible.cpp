@@ -234,14 +234,9 @@ class Plausible {
   }
 
   void grid(const std::string& key, const Series& values) {
-    if (run().measured && (run().measured->counted || run().measured->point_s > 0.0)) return;
     const plant::Sensor& sensor = data_.rig.sensors.position();
-    const Series readings = known(values);
-    std::size_t stays = 0;  // a slow motion on a grid stays where it is; an even one has even moves as well
-    for (std::size_t k = 1; k < readings.size(); ++k) stays += readings[k] == readings[k - 1] ? 1 : 0;
-    if (static_cast<double>(stays) < limits.stays * static_cast<double>(readings.size())) return;
-    const double said = reading_per_count(data_.rig), step = step_of(readings);
-    if (step < limits.coarser * said || step > limits.coarsest) return;
+    const double said = reading_per_count(data_.rig), step = coarse_step(data_, run(), values);
+    if (step == 0.0) return;
     const bool turns = key == "angle" || sensor.kind == plant::SensorKind::potentiometer;
     const double size = turns ? step * (sensor.counts_pulses() ? 1.0 : sensor.resolution / said)
                               : 1e3 * step * data_.rig.muscle.rest_length_m;
@@ -324,6 +319,16 @@ std::string too_short(const std::vector<double>& time_s, ColumnPlace time) {
       "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is its time in {}, not in {}? Then write "
       "columns: {{{}}}",
       1e3 * lasts_s, time_s.size(), 1e6 * step_s, time.unit, said, line_of("time", time));
+}
+
+double coarse_step(const domain::Dataset& data, const domain::Run& run, const Series& values) {
+  if (run.measured && (run.measured->counted || run.measured->point_s > 0.0)) return 0.0;
+  const Series readings = known(values);
+  std::size_t stays = 0;  // a slow motion on a grid stays where it is; an even one has even moves as well
+  for (std::size_t k = 1; k < readings.size(); ++k) stays += readings[k] == readings[k - 1] ? 1 : 0;
+  if (static_cast<double>(stays) < limits.stays * static_cast<double>(readings.size())) return 0.0;
+  const double step = step_of(readings);
+  return step < limits.coarser * reading_per_count(data.rig) || step > limits.coarsest ? 0.0 : step;
 }
 
 std::string if_absolute(const domain::Dataset& data, std::size_t run, const std::string& key) {
