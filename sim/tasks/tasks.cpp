@@ -141,9 +141,13 @@ Found find(const domain::Dataset& data, const Diagnosing& how, const run::Progre
   std::size_t steps = 0;
   const identify::Settings settings{.threads = how.threads,
                                     .trying = [&](const std::string& what) { progress(what, ++steps, 0); },
-                                    .time_limit_s = how.time_limit_s};
-  Found found{
-      identify::diagnosis_of(identify::identify(data, settings), settings, {how.seed, how.warnings}), {}, {}};
+                                    .time_limit_s = how.time_limit_s,
+                                    .known = how.known};
+  identify::Identified identified = identify::identify(data, settings);
+  Found found{identify::diagnosis_of(identified, settings, {how.seed, how.warnings}),
+              {},
+              {},
+              std::move(identified.simulated)};
   found.nominal = run::replay(data, how.threads, progress);
   domain::Dataset mended = data;
   mended.rig = found.diagnosis.corrected;
