@@ -61,7 +61,7 @@ Eigen::VectorXd column_of_clock(const Model& model, const BenchNumber& clock, co
   return column;
 }
 
-/// Of a pair, where in the list muscle 1's and muscle 2's part of what both have are; empty: nowhere.
+/// Of a pair, where in the list muscle 1's and muscle 2's part of what both have are; empty: one is not.
 std::vector<std::size_t> sides_of(const Dictionary& dictionary, const std::vector<Probe>& list,
                                   const Probe& probe) {
   using diagnose::Side;
@@ -74,6 +74,7 @@ std::vector<std::size_t> sides_of(const Dictionary& dictionary, const std::vecto
         list[i].size == probe.size && list[i].shapes == probe.shapes)
       places.push_back(i);
   }
+  if (places.size() < 2) places.clear();
   return places;
 }
 
