@@ -57,6 +57,9 @@ class PulseCounter {
   /// Counts at a rise x [m], reached from the last one without turning on the way.
   std::int64_t count(double x_m);
 
+  /// What changes of it: a saved state's.
+  static void members(auto& self, auto& visit) { visit(self.last_m_, self.counts_); }
+
  private:
   EncoderWiring wiring_;
   double q_m_;
@@ -72,6 +75,8 @@ class PositionReader {
 
   /// At a rise x [m], reached from the last one without turning on the way.
   std::int64_t count(double x_m);
+
+  static void members(auto& self, auto& visit) { visit(self.counter_); }
 
  private:
   Sensor sensor_;

@@ -17,6 +17,7 @@
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/tasks/kept_search.hpp>
 #include <sim/tasks/tasks.hpp>
 
 namespace mckibben::cli {
@@ -52,6 +53,7 @@ struct DiagnoseOptions : Options {
   std::vector<std::string> hypotheses;  ///< files of laws that join the catalogue
   std::string plan;  ///< where to write the next experiment as a campaign; empty for nowhere
   double time_limit_s = std::numeric_limits<double>::infinity();
+  std::string resume;  ///< folder of a diagnosis that was ended; empty for none
 };
 
 int diagnose_dataset(const DiagnoseOptions& options) {
@@ -60,10 +62,14 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   const std::vector<std::string> warnings = tasks::prepare(data, options.hypotheses, warn);
   const std::string name = output::name_of(data);
   check_plan(options.plan);
+  identify::Simulated known;
+  if (!options.resume.empty())
+    known = tasks::simulated_in(std::filesystem::path(options.resume) / tasks::kept_search, data.inputs);
   Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);
   tasks::Found found;
   try {
-    const tasks::Diagnosing how{options.threads, options.seed.value_or(1), options.time_limit_s, warnings};
+    const tasks::Diagnosing how{options.threads, options.seed.value_or(1), options.time_limit_s, warnings,
+                                &known};
     found = with_progress(name, [&](const auto& hook) { return tasks::find(data, how, hook); });
   } catch (const engine::NumericalFailure& error) {
     say(fmt::format("the data cannot be simulated on this rig: {}", error.what()));
@@ -74,13 +80,19 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   const std::string document = output::json_of(data, diagnosis);
   job.write("diagnosis.json", document);
   job.write("rig.yaml", output::rig_yaml(data, diagnosis));
+  if (diagnosis.ended != diagnose::Ended::no)
+    job.write(tasks::kept_search, tasks::bytes_of(found.simulated, data.inputs));
   if (!diagnosis.residual_law.empty()) job.write("law.yaml", output::law_yaml(data, diagnosis));
   job.write("report.html", report::report_html(data, diagnosis, found.nominal, found.corrected));
   const auto file = [&](const char* leaf) { return (job.where() / leaf).string(); };
   const std::string law = diagnosis.residual_law.empty() ? "" : fmt::format("law    {}\n", file("law.yaml"));
   const std::string files = fmt::format("\nreport {}\nrig    {}\n{}all    {}\n", file("report.html"),
                                         file("rig.yaml"), law, file("diagnosis.json"));
-  const int status = job.finish({document, output::table_of(data, diagnosis) + files}, done);
+  const std::string go_on = diagnosis.ended == diagnose::Ended::no || !job.has_folder()
+                                ? ""
+                                : fmt::format("\nTo go on from here:\n  mckibben diagnose {} --resume {}\n",
+                                              options.dataset, job.where().string());
+  const int status = job.finish({document, output::table_of(data, diagnosis) + files + go_on}, done);
   write_plan(options.plan, data, diagnosis);
   return status;
 }
@@ -103,10 +115,14 @@ void add_diagnose(CLI::App& app, Asked& asked) {
       verb, "--time-limit", options.time_limit_s, "s", 1e6,
       "End the search then, with the best so far (default: when it is through); Ctrl-C ends it as well",
       "TIME");
+  verb.add_option("--resume", options.resume,
+                  "Go on with the search of a diagnosis that was ended, from its folder")
+      ->type_name("FOLDER");
   verb.footer(
       "Examples:\n"
       "  mckibben diagnose measured/\n"
       "  mckibben diagnose measured/ --time-limit '20 min'\n"
+      "  mckibben diagnose measured/ --resume out/diagnose-measured\n"
       "  mckibben diagnose measured/ --out diagnosis --plan next.yaml\n"
       "  mckibben diagnose measured/ --hypothesis my_law.yaml\n"
       "Writes report.html (to read), rig.yaml (the corrected rig, for run and replay) and diagnosis.json;\n"

@@ -11,6 +11,7 @@
 #include <sim/data/examine.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/odd_readings.hpp>
+#include <sim/data/plausible.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
 
@@ -135,12 +136,13 @@ class Readings {
     const Series sharpest = sharpest_nearby(model, data_.row_s());
     const auto absent = std::count(masked.begin(), masked.end(), true);  // no fault: read at other stamps
     range_ends(i);
-    mask_spikes(i, reading(), values, model, count_);
-    stand_still(i, stills(values, model, count_, data_.row_s()));
+    const double count = bench_ ? count_ : std::max(count_, coarse_step(data_, data_.runs[i], values));
+    mask_spikes(i, reading(), values, model, count);
+    stand_still(i, stills(values, model, count, data_.row_s()));
     if (result_.left_out[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true) - absent;
     const auto read = static_cast<std::ptrdiff_t>(masked.size()) - absent;
-    if (const auto row = lost_counts(values, sharpest, masked, count_))
+    if (const auto row = lost_counts(values, sharpest, masked, count))
       leave_out(i, lost_in_words(i, values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > of_readings.most_masked * static_cast<double>(read) || read == 0)
       leave_out(i, "too little of it is left");
@@ -256,7 +258,12 @@ void require_enough(const domain::Dataset& data, const std::vector<bool>& left_o
   for (std::size_t i = 0; i < data.runs.size(); ++i)
     if (!left_out[i]) loads_kg.push_back(data.runs[i].load_kg);
   const domain::Judged judged = data.judged();
-  if (loads_kg.size() < of_readings.least_runs)
+  if (loads_kg.empty())
+    findings.push_back({.message =
+                            "no run is usable: mend what is said of each, name another file or column, "
+                            "or measure again",
+                        .severity = Severity::unusable});
+  else if (loads_kg.size() < of_readings.least_runs)
     findings.push_back(
         {.message = fmt::format(
              "{} usable run{}: too few to choose on some and test on others; at least four runs would help, "

@@ -15,12 +15,16 @@ std::string lines_of(const std::filesystem::path& path, const std::vector<Findin
   std::string text;
   for (const Finding& one : findings) {
     if (!text.empty()) text += '\n';
-    text.append(path.string()).append(is_refused(one) ? ": error: " : ": warning: ").append(one.message);
+    text.append(path.string()).append(is_error(one) ? ": error: " : ": warning: ").append(one.message);
   }
   return text;
 }
 
 }  // namespace
+
+bool is_error(const Finding& finding) {
+  return is_refused(finding) || finding.severity == Severity::unusable;
+}
 
 std::string text_of(const domain::Dataset& data, const Finding& finding) {
   const std::size_t count = finding.runs.size();
@@ -50,7 +54,8 @@ std::string_view consequence_of(const Finding& finding) {
 }
 
 bool only_limits_diagnosis(const Finding& finding) {
-  return finding.severity == Severity::undecidable || finding.severity == Severity::limited;
+  return finding.severity == Severity::unusable || finding.severity == Severity::undecidable ||
+         finding.severity == Severity::limited;
 }
 
 std::vector<Finding> with_runs_named(const domain::Dataset& data, std::vector<Finding> findings) {
@@ -60,6 +65,9 @@ std::vector<Finding> with_runs_named(const domain::Dataset& data, std::vector<Fi
 
 void raise(const domain::Dataset& data, const std::vector<Finding>& findings) {
   if (std::ranges::any_of(findings, is_refused)) throw UnfitData(data, findings);
+}
+void raise_for_diagnosis(const domain::Dataset& data, const std::vector<Finding>& findings) {
+  if (std::ranges::any_of(findings, is_error)) throw UnfitData(data, findings);
 }
 
 UnfitData::UnfitData(const domain::Dataset& data, std::vector<Finding> findings)

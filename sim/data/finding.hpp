@@ -20,7 +20,8 @@ enum class Severity {
   masked,       ///< without these readings,
   ignored,      ///< without this gauge,
   taken_out,    ///< or without this part of the readings
-  undecidable,  ///< a diagnosis of these data would find nothing,
+  unusable,     ///< a diagnosis is refused,
+  undecidable,  ///< would find nothing,
   limited       ///< or cannot tell some effects from others
 };
 
@@ -43,6 +44,9 @@ struct Finding {
 std::string text_of(const domain::Dataset& data, const Finding& finding);
 /// What a diagnosis does about it: "; left out". Empty if nothing.
 std::string_view consequence_of(const Finding& finding);
+
+/// Whether somebody is refused because of it.
+bool is_error(const Finding& finding);
 
 /// Whether it only concerns those who want a diagnosis.
 bool only_limits_diagnosis(const Finding& finding);
@@ -67,7 +71,9 @@ class UnfitData : public std::runtime_error {
 /// The findings with messages that name the runs.
 std::vector<Finding> with_runs_named(const domain::Dataset& data, std::vector<Finding> findings);
 
-/// Throws UnfitData with all findings if one of them is `refused`.
+/// Throws UnfitData with all findings if one of them is `refused`;
 void raise(const domain::Dataset& data, const std::vector<Finding>& findings);
+/// or, for a diagnosis, `unusable`.
+void raise_for_diagnosis(const domain::Dataset& data, const std::vector<Finding>& findings);
 
 }  // namespace mckibben::data

@@ -217,26 +217,15 @@ class Plausible {
         std::erase_if(lows, [&](const Low& one) { return !one.rests || !near(one); });
       if (lows.empty()) continue;
       const Low& lowest = std::ranges::min(lows, {}, &Low::low_Pa);
-      map_ = with_our_names(domain::merged(data_.columns, data_.runs[lowest.run].columns),
-                            data_.rig.command_unit());
-      ColumnPlace meant = map_[key];
-      if (meant.zero != 0.0) continue;
-      meant.zero = zero_of_atmosphere(meant);
+      const std::string then = if_absolute(data_, lowest.run, key);
+      if (then.empty()) continue;
       found_.push_back({.quantity = key,
-                        .message = fmt::format(
-                            "{} rests at {:.4g} bar: is it absolute? Then zero is what its gauge reads in "
-                            "open air, {:.6g} bar in its unit ({}): columns: {{{}}}",
-                            key, lowest.low_Pa / plant::Pa_per_bar,
-                            data_.rig.gas.atmosphere_Pa / plant::Pa_per_bar, meant.unit, line_of(key, meant)),
+                        .message = fmt::format("{} rests at {:.4g} bar: is it absolute? {}", key,
+                                               lowest.low_Pa / plant::Pa_per_bar, then),
                         .severity = Severity::doubtful});
       for (const Low& one : lows) found_.back().runs.push_back(one.run);
       kinds_.push_back(key + "absolute");
     }
-  }
-
-  double zero_of_atmosphere(const ColumnPlace& said) const {
-    const std::optional<double> unit_Pa = size_Pa(said.unit);
-    return unit_Pa ? data_.rig.gas.atmosphere_Pa / *unit_Pa / said.factor : 1.01325;
   }
 
   bool moves_far() const {
@@ -245,14 +234,9 @@ class Plausible {
   }
 
   void grid(const std::string& key, const Series& values) {
-    if (run().measured && (run().measured->counted || run().measured->point_s > 0.0)) return;
     const plant::Sensor& sensor = data_.rig.sensors.position();
-    const Series readings = known(values);
-    std::size_t stays = 0;  // a slow motion on a grid stays where it is; an even one has even moves as well
-    for (std::size_t k = 1; k < readings.size(); ++k) stays += readings[k] == readings[k - 1] ? 1 : 0;
-    if (static_cast<double>(stays) < limits.stays * static_cast<double>(readings.size())) return;
-    const double said = reading_per_count(data_.rig), step = step_of(readings);
-    if (step < limits.coarser * said || step > limits.coarsest) return;
+    const double said = reading_per_count(data_.rig), step = coarse_step(data_, run(), values);
+    if (step == 0.0) return;
     const bool turns = key == "angle" || sensor.kind == plant::SensorKind::potentiometer;
     const double size = turns ? step * (sensor.counts_pulses() ? 1.0 : sensor.resolution / said)
                               : 1e3 * step * data_.rig.muscle.rest_length_m;
@@ -335,6 +319,28 @@ std::string too_short(const std::vector<double>& time_s, ColumnPlace time) {
       "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is its time in {}, not in {}? Then write "
       "columns: {{{}}}",
       1e3 * lasts_s, time_s.size(), 1e6 * step_s, time.unit, said, line_of("time", time));
+}
+
+double coarse_step(const domain::Dataset& data, const domain::Run& run, const Series& values) {
+  if (run.measured && (run.measured->counted || run.measured->point_s > 0.0)) return 0.0;
+  const Series readings = known(values);
+  std::size_t stays = 0;  // a slow motion on a grid stays where it is; an even one has even moves as well
+  for (std::size_t k = 1; k < readings.size(); ++k) stays += readings[k] == readings[k - 1] ? 1 : 0;
+  if (static_cast<double>(stays) < limits.stays * static_cast<double>(readings.size())) return 0.0;
+  const double step = step_of(readings);
+  return step < limits.coarser * reading_per_count(data.rig) || step > limits.coarsest ? 0.0 : step;
+}
+
+std::string if_absolute(const domain::Dataset& data, std::size_t run, const std::string& key) {
+  ColumnPlace meant =
+      with_our_names(domain::merged(data.columns, data.runs[run].columns), data.rig.command_unit())[key];
+  if (meant.zero != 0.0) return "";
+  const double atmosphere_Pa = data.rig.gas.atmosphere_Pa;
+  const std::optional<double> unit_Pa = size_Pa(meant.unit);
+  meant.zero = unit_Pa ? atmosphere_Pa / *unit_Pa / meant.factor : 1.01325;
+  return fmt::format(
+      "Then zero is what its gauge reads in open air, {:.6g} bar in its unit ({}): columns: {{{}}}",
+      atmosphere_Pa / plant::Pa_per_bar, meant.unit, line_of(key, meant));
 }
 
 std::vector<Finding> implausible(const domain::Dataset& data) {

@@ -15,6 +15,13 @@ namespace mckibben::data {
 /// coarser than the sensor's.
 std::vector<Finding> implausible(const domain::Dataset& data);
 
+/// The step that a run's readings of position come in, where it is coarser than what the rig's sensor
+/// resolves; 0 where it is not.
+double coarse_step(const domain::Dataset& data, const domain::Run& run, const std::vector<double>& values);
+
+/// What to write if the pressure that this key gives is absolute; empty if it has a zero.
+std::string if_absolute(const domain::Dataset& data, std::size_t run, const std::string& key);
+
 /// That stamps last next to nothing, and the unit that they may be in; empty if they do not.
 std::string too_short(const std::vector<double>& time_s, domain::ColumnPlace time);
 

@@ -106,6 +106,7 @@ struct PlausibleThresholds {
   double beyond_supply = 1.5, high_Pa = 1e6;  ///< that a given pressure reaches at most
   double lifts_nothing_Pa = 0.15e5, moves_far = 0.02;
   double least_atmosphere_Pa = 0.95e5, most_atmosphere_Pa = 1.06e5;
+  double nearer = 1.0 / 3.0;  ///< of the error is left if a given pressure is taken as absolute
   double rests = 3e-3, resting_share = 0.05;  ///< relative; of the rows
   double lowest_share = 0.01;                 ///< of the rows: a run's lowest pressure but for noise
   double stays = 0.2;                         ///< of the readings that are on a grid

@@ -112,7 +112,7 @@ void predict_all(std::size_t count, std::size_t rigs, unsigned threads, solver::
     const auto prediction =
         std::make_shared<Prediction>(*one.run, one.rigs, std::bind_front(predicted, index), one.disturbance);
     solver::Settings settings = settings_for(one.rigs, method);
-    if (one.finely) settings.tolerance = thresholds.predict.tolerance_alone;
+    settings.tolerance = one.tolerance.value_or(settings.tolerance);
     return run::BatchTask{prediction->key(settings, false), [=] { return prediction; }};
   });
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct Wanted {
   const domain::Run* run;
   std::vector<Loaded> rigs;
   run::Disturbance disturbance{};
-  bool finely = false;  ///< as if it were alone
+  std::optional<double> tolerance{};  ///< of the integration; none: as `settings_for` says
 };
 /// Hears of one: its readings, or why there are none (an engine::NumericalFailure).
 using Predicted =

@@ -44,6 +44,7 @@ void Model::descend(const Effort& effort) {
     const double promised = quadratic.promised(), before = cost(read, point);
     if (far && promised < 1.0) {
       far = false;
+      error = error.fitted_anew(residual(), slopes, variance());
       continue;
     }
     if (promised < effort.enough) {

@@ -97,6 +97,11 @@ class HandingOver {
     const Verdict decided = of_the_rig(found_.decision.verdict);
     if (found_.ended != Ended::no && decided != Verdict::missing_effect) return Verdict::cannot_tell;
     const Model* parameters = found_.of(false);
+    // Parameters that leave more than noise, and most of the gap, are no answer.
+    if (decided == Verdict::recalibrate && !found_.chosen().error.explains() &&
+        gap_of(found_, three(found_.decision.chosen), experiment_.floor()).closed <
+            diagnose::thresholds.tell.closed)
+      return found_.table[found_.decision.best].general ? Verdict::unknown_effect : Verdict::cannot_tell;
     if (decided != Verdict::nothing_missing || parameters == nullptr) return decided;
     if (!found_.chosen().error.explains()) return Verdict::cannot_tell;
     step("what of the catalogue these data would show");
@@ -126,7 +131,7 @@ class HandingOver {
     const bool decided =
         result_.verdict != Verdict::cannot_tell && result_.verdict != Verdict::unknown_effect;
     for (std::size_t i = 0; i < found_.table.size() && !decided; ++i)
-      if (found_.table[i].names.empty() && predicts_better(i)) handed = i;
+      if (found_.table[i].names.empty() && rig_can_carry(i) && rms_[i] < rms_[handed]) handed = i;
     return handed;
   }
 
@@ -160,7 +165,8 @@ class HandingOver {
       if (std::ranges::any_of(open.parameters, unknown)) warn("not determined by these data: " + open.words);
   }
 
-  void report_gap(std::size_t handed) {
+  /// The rig as described, its parameters alone, and the one that is handed over.
+  Three three(std::size_t handed) const {
     const auto place = [&](bool described) {
       for (std::size_t i = 0; i < found_.table.size(); ++i)
         if (found_.table[i].names.empty() && found_.table[i].described == described) return i;
@@ -168,9 +174,13 @@ class HandingOver {
     };
     const std::size_t nominal = place(true),
                       recalibrated = found_.of(false) != nullptr ? place(false) : nominal;
-    const Three three{found_.models[nominal], found_.models[recalibrated], found_.models[handed],
-                      left_[nominal],         left_[recalibrated],         left_[handed]};
-    result_.gap = gap_of(found_, three, experiment_.floor());
+    return {found_.models[nominal], found_.models[recalibrated], found_.models[handed],
+            left_[nominal],         left_[recalibrated],         left_[handed]};
+  }
+
+  void report_gap(std::size_t handed) {
+    const Three all = three(handed);
+    result_.gap = gap_of(found_, all, experiment_.floor());
     for (const diagnose::BesideGap& one : result_.gap.beside)
       if (one.corrected_rmse > diagnose::thresholds.start.explained_floors * one.noise_floor)
         warn(fmt::format(
@@ -178,12 +188,9 @@ class HandingOver {
             "both it and the {}. Is it this muscle's, and near it?",
             one.reading, one.corrected_rmse, one.unit, one.noise_floor, one.unit,
             plant::name_of(result_.gap.judged)));
-    result_.runs = gaps_of_runs(found_, three, experiment_);
-    const auto rig_of = [&](std::size_t i) {
-      const Model& model = found_.models[i];
-      return model.problem->dictionary.setting(model.point).rig;
-    };
-    result_.where = diagnose::where(experiment_, rig_of(recalibrated), usable_.runs, reporting_.seed);
+    result_.runs = gaps_of_runs(found_, all, experiment_);
+    const auto rig_of = [](const Model& model) { return model.problem->dictionary.setting(model.point).rig; };
+    result_.where = diagnose::where(experiment_, rig_of(all.recalibrated), usable_.runs, reporting_.seed);
     const domain::Dataset mended = without_faults(found_.models[handed]);
     const Experiment of_mended(mended, usable_.masked, settings_.threads, usable_.runs);
     result_.start = look_at_start(of_mended, result_.corrected, usable_.runs);

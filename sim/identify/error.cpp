@@ -27,7 +27,7 @@ Error::Error(const Rows& rows, const Wander& wander) : rows_(&rows) {
   logs_ = {std::log(rows.count > 0.0 ? 0.1 * rows.count : rows.noise.front()), std::log(rows.unit), 0.0};
   for (std::size_t kind = 1; kind < rows.kinds.size(); ++kind)
     logs_.insert(logs_.end(), {std::log(rows.noise[kind]), std::log(rows.noise[kind])});
-  logs_.insert(logs_.end(), {std::log(1e-3), std::log(0.3)});
+  logs_.insert(logs_.end(), {std::log(0.03), std::log(0.3)});  // where a wander of none has no slope
   start_ = logs_;
   // Kept from here on: how compliant the rig was when it was first looked at.
   Eigen::VectorXd compliance = wander.together.cwiseAbs();
@@ -136,7 +136,8 @@ double Error::wander_units() const {
   return std::exp(logs_[wander_at()]);
 }
 double Error::gain(Index row) const {
-  return std::hypot((*compliance_)[row], std::exp(logs_[constant_at()]));
+  const double of_rig = (*compliance_)[row], constant = std::exp(logs_[constant_at()]);
+  return std::sqrt(of_rig * of_rig + constant * constant);
 }
 double Error::of_model() const {
   double square = 0.0, count = 0.0;
@@ -334,6 +335,7 @@ std::pair<Error, double> Error::fitted(const Eigen::VectorXd& residual, const Ei
         for (const double sign : {1.0, -1.0}) {
           std::vector<double> there = here;
           there[j] += sign * step;
+          if (j == 2) there[model_sd] += 0.5 * sign * step;  // the error from row to row as it is
           if (const double value = value_of(there); value > best + 0.05) {
             here = std::move(there);
             best = value;
@@ -345,6 +347,13 @@ std::pair<Error, double> Error::fitted(const Eigen::VectorXd& residual, const Ei
   Error result = *this;
   result.logs_ = std::move(here);
   return {std::move(result), best};
+}
+
+Error Error::fitted_anew(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
+                         const Eigen::VectorXd& variance) const {
+  auto [one, value_of_one] = fitted(residual, columns, variance, {0.5});
+  auto [other, value_of_other] = begun().fitted(residual, columns, variance, {1.0, 0.5});
+  return value_of_one >= value_of_other ? std::move(one) : std::move(other);
 }
 
 }  // namespace mckibben::identify

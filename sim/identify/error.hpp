@@ -55,6 +55,10 @@ class Error {
                                   const Eigen::VectorXd& variance, std::vector<double> steps,
                                   std::vector<std::size_t> only = {}) const;
 
+  /// The same from here and from the numbers that it began with: there are several optima.
+  Error fitted_anew(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
+                    const Eigen::VectorXd& variance) const;
+
   /// One that forgets at once: all that is slow must be met.
   Error forgetting() const;
   /// With the numbers that it began with.

@@ -17,7 +17,8 @@ using Eigen::Index;
 namespace {
 
 constexpr int rounds = 4;
-constexpr int first_rounds = 4;  // of the parameters, before effects are looked for
+constexpr int first_rounds = 4;      // of the parameters, before effects are looked for
+constexpr double to_the_end = 0.05;  // nats that are promised: a third of a deviation
 
 /// What a search does one after the other, as it is told where it was ended.
 constexpr std::array stages{"the rig's parameters", "effects and bench faults",
@@ -180,14 +181,24 @@ void Search::go_on() {
   Model parameters = *at_;
   parameters.settle({.rounds = first_rounds});
   parameters.evidence();
+  if (!parameters.arrived && parameters.error.explains() && !bent(parameters)) {
+    parameters.settle({});
+    parameters.evidence();
+  }
   enter(parameters);
   here_ = parameters;
   stage_ = 1;
   // screen and descend: as seen from the rig as described, whose parameters have not bent to imitate what is
-  // missing (unless these explain all), and from where they were fitted; then from wherever the best stands,
+  // missing (unless these explain all), or from where they were fitted; then from wherever the best stands,
   // and from its effects with the parameters as described where these had to bend.
-  std::set<Names> looked{{}};
-  if (!parameters.arrived || bent(parameters) || !parameters.error.explains()) look_from(*at_, true, true);
+  std::set<Names> looked;
+  const bool near = parameters.error.explains();
+  if (!near) {
+    looked.insert(Names{});
+    look_from(*at_, true, true);
+  } else if (bent(parameters)) {
+    look_from(parameters, false, true);
+  }
   if (!parameters.arrived) {
     parameters.settle({.beat = best_score() - clear});
     parameters.hopeless = false;  // it is told whatever it is
@@ -195,7 +206,7 @@ void Search::go_on() {
     if (enter(parameters) > here_->score) here_ = parameters;
   }
   const bool contends = bent(parameters) && parameters.score > here_->score - clear;
-  if ((contends || !explained_) && !dictionary_.names(here_->point).empty())
+  if (!near && (contends || !explained_) && !dictionary_.names(here_->point).empty())
     look_from(table_.at({false, {}}), false, true);
   for (int round = 0; round < rounds && !outside_; ++round) {
     const Names names = dictionary_.names(here_->point);
@@ -214,15 +225,13 @@ void Search::go_on() {
       break;
     }
   }
-  if (!here_->arrived) {
-    step("fitting what was found to the end");  // for intervals
-    Model last(problem_, here_->point, here_->error);
-    last.look();
-    last.settle({});
-    last.evidence();
-    enter(last);
-    if (last.score > here_->score) here_ = std::move(last);
-  }
+  step("fitting what was found to the end");  // for intervals
+  Model last(problem_, here_->point, here_->error);
+  last.look();
+  last.settle({.enough = to_the_end});
+  last.evidence();
+  enter(last);
+  if (last.score > here_->score) here_ = std::move(last);
   stage_ = 2;
   describe_bench();
   if (!here_->error.explains()) try_terms();
@@ -258,9 +267,11 @@ Identified Search::found() && {
 Identified identify(domain::Dataset data, const Settings& settings) {
   diagnose::Search limit(settings.time_limit_s);
   auto study = std::make_shared<const Study>(std::move(data), settings);
+  study->simulator.keep(settings.known != nullptr ? *settings.known : Simulated());
   Search search(study->problem, settings);
   search.begin();
   limit.part("", [&] { search.go_on(); });
+  Simulated simulated = study->simulator.kept();
   const bool worked = search.is_out_of_work();
   std::vector<std::string> not_done = search.not_done();
   Identified found = std::move(search).found();
@@ -269,6 +280,7 @@ Identified identify(domain::Dataset data, const Settings& settings) {
   if (found.ended != Ended::no) {
     if (found.ended == Ended::by_time && worked) found.ended = Ended::by_work;
     found.not_done = std::move(not_done);
+    found.simulated = std::move(simulated);
   }
   return found;
 }

@@ -32,6 +32,7 @@ struct Settings {
   /// Of the search: simulations of the set, which every machine counts alike, and a time that only stops it.
   long most_passes = 10000;
   double time_limit_s = std::numeric_limits<double>::infinity();
+  const Simulated* known = nullptr;  ///< of an earlier search on these data that was ended
 };
 
 /// What a search stands on, and its models with it.
@@ -62,6 +63,7 @@ struct Identified {
   std::map<std::string, double> promised{};  ///< nats that a look saw in a name
   Ended ended = Ended::no;                   ///< before the search was through,
   std::vector<std::string> not_done{};       ///< without these
+  Simulated simulated{};                     ///< by then, to go on from
   long passes = 0;
 
   const Model& chosen() const { return models[decision.chosen]; }

@@ -26,7 +26,7 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
     q.differ.push_back(g);
     std::ranges::sort(q.differ);
     // Its scale, and the rest with it, by evidence.
-    const Error error = base.error.with(q.differ).fitted(residual, slopes, variance, {1.0}).first;
+    const Error error = base.error.with(q.differ).fitted_anew(residual, slopes, variance);
     std::ranges::move(sets(problem_, error, q, base.term_N, residual, slopes, columns, list, far),
                       std::back_inserter(all));
   }
@@ -36,8 +36,8 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
 namespace {
 
 /// Whether two changes have nearly one direction, of their products.
-bool are_alike(double along, double square, double other_square) {
-  return along * along >= alike * square * other_square;
+bool are_alike(double along, double square, double other_square, double least = alike) {
+  return along * along >= least * square * other_square;
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ bool are_alike(double along, double square, double other_square) {
 /// What changes the readings like a part of a model does, in its place. Straight lines say nothing of whether
 /// it is better: `value` is for comparison among these.
 std::vector<Start> Search::alike_to(const Model& base, const Part& part, const Eigen::MatrixXd& columns,
-                                    const std::vector<Probe>& list) const {
+                                    const std::vector<Probe>& list, double least) const {
   std::vector<Start> starts;
   const Names names = dictionary_.names(part.rest);
   if (names.size() == static_cast<std::size_t>(decisive.most_together)) return starts;
@@ -53,7 +53,7 @@ std::vector<Start> Search::alike_to(const Model& base, const Part& part, const E
   for (Index c = 0; c < columns.cols(); ++c) {
     const Probe& probe = list[static_cast<std::size_t>(c)];
     const double along = gram(0, c + 1), square = gram(c + 1, c + 1);
-    if (!are_alike(along, gram(0, 0), square) || part.rest.has(probe.entry)) continue;
+    if (!are_alike(along, gram(0, 0), square, least) || part.rest.has(probe.entry)) continue;
     const Added added = dictionary_.clipped({probe.entry, along / square, probe.shapes});
     Start start{log_t(added.size) - part.log_prior, part.rest};
     start.point.effects.push_back(added);
@@ -68,18 +68,19 @@ std::vector<Start> Search::alike_to(const Model& base, const Part& part, const E
   return starts;
 }
 
-/// With the size of what the rest has not that changes the readings least from the base's: far from there a
-/// straight line does not tell it.
-Point Search::resized(const Model& base, Point point, const Point& rest) const {
+/// With the size of what the rest has not that changes the readings least from the base's, and by how much
+/// (square, whitened): far from there a straight line does not tell it.
+std::pair<Point, double> Search::resized(const Model& base, Point point, const Point& rest) const {
   const auto added =
       std::ranges::find_if(point.effects, [&](const Added& one) { return !rest.has(one.entry); });
-  if (added == point.effects.end()) return point;
+  if (added == point.effects.end()) return {std::move(point), 0.0};
   const auto at = [&](double size) {
     added->size = size;
     *added = dictionary_.clipped(*added);
     return dictionary_.setting(point);
   };
   double middle = added->size, width = 0.5;  // relative
+  double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < 3; ++pass, width *= 0.25) {
     std::vector<Setting> settings{dictionary_.setting(base.point)};
     std::vector<double> sizes;
@@ -88,7 +89,7 @@ Point Search::resized(const Model& base, Point point, const Point& rest) const {
       settings.push_back(at(sizes.back()));
     }
     const Eigen::MatrixXd off = problem_.simulator.differences(settings);
-    double least = std::numeric_limits<double>::infinity();
+    least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       const Eigen::VectorXd one = off.col(static_cast<Index>(i + 1));
       if (!one.allFinite()) continue;
@@ -100,7 +101,7 @@ Point Search::resized(const Model& base, Point point, const Point& rest) const {
     }
   }
   at(middle);
-  return point;
+  return {std::move(point), least};
 }
 
 /// A parameter far off its sheet and an effect or fault that changes the readings alike are two hills of one
@@ -111,23 +112,109 @@ std::vector<Start> Search::twins(const Model& base, const Eigen::MatrixXd& colum
   for (Index j = 0; j < base.point.z.size(); ++j) {
     const double z = base.point.z[j];
     if (std::abs(z) < far_off) continue;
-    Part part{base.point, z * base.slopes.col(j), log_t(z) - log_t(0.0)};
+    Part part{base.point, z * base.slopes.col(j), log_t(z) - log_t(0.0), std::nullopt};
     part.rest.z[j] = 0.0;
     std::vector<Start> more = alike_to(base, part, columns, list);
-    if (!more.empty()) more.front().point = resized(base, std::move(more.front().point), part.rest);
+    if (!more.empty()) more.front().point = resized(base, std::move(more.front().point), part.rest).first;
     std::ranges::move(more, std::back_inserter(starts));
   }
   return starts;
 }
 
-/// Sets from a model: with more, and of its own with one less. `far`: of a rig as described. `first`: nothing
-/// has been tried yet. Whether one of them became the best.
+/// What each of its own changes.
+std::vector<Search::Part> Search::parts_of(const Model& base) const {
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < base.point.effects.size(); ++i) {
+    Part part{base.point.without(i), {}, log_t(base.point.effects[i].size), i};
+    const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(part.rest));
+    if (!without.allFinite()) continue;
+    part.change = base.read - without;
+    parts.push_back(std::move(part));
+  }
+  for (const int g : base.point.differ) {
+    if (!is_simulated(g)) continue;
+    Part part{base.point, {}, 0.0, std::nullopt};
+    std::erase(part.rest.differ, g);
+    part.rest.of_runs[static_cast<std::size_t>(g)].clear();
+    const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(part.rest));
+    if (!without.allFinite()) continue;
+    part.change = base.read - without;
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// Sets from a model: with more, the first of them its own, and of its own with one less. `far`: of a rig as
+/// described.
+std::vector<Start> Search::around(const Model& base, const Eigen::MatrixXd& columns,
+                                  const std::vector<Probe>& list, const std::vector<Part>& parts,
+                                  bool far) const {
+  const Eigen::VectorXd left = base.residual();
+  std::vector<Start> starts = starts_from(base, columns, list, base.point, left, base.slopes, far);
+  if (far) return starts;
+  const auto add = [&](std::vector<Start> more) { std::ranges::move(more, std::back_inserter(starts)); };
+  for (const int g : base.point.differ) {
+    if (is_simulated(g)) continue;  // a part
+    Point q = base.point;
+    std::erase(q.differ, g);
+    add(starts_from(base, columns, list, q, left, base.slopes, false));
+  }
+  const auto coordinates = dictionary_.coordinates(base.point);
+  for (const Part& part : parts) {
+    std::vector<Index> kept;
+    for (std::size_t j = 0; j < coordinates.size(); ++j)
+      if (coordinates[j].kind == Kind::parameter ||
+          coordinates[j].of != part.place.value_or(coordinates.size()))
+        kept.push_back(static_cast<Index>(j));
+    add(starts_from(base, columns, list, part.rest, left + part.change, base.slopes(Eigen::all, kept),
+                    false));
+  }
+  return starts;
+}
+
+/// Where all is explained and nothing is bent, the columns of the last look, from elsewhere, say which
+/// candidates are worth another simulation: what promises anything, or changes the readings much like a part
+/// does.
+std::vector<Probe> Search::still_worth(const Model& base, const std::vector<Part>& parts) const {
+  std::vector<Index> kept;
+  std::vector<Probe> known;
+  for (std::size_t j = 0; j < seen_.list.size(); ++j) {
+    if (base.point.has(seen_.list[j].entry)) continue;
+    kept.push_back(static_cast<Index>(j));
+    known.push_back(seen_.list[j]);
+  }
+  const Eigen::MatrixXd columns = seen_.columns(Eigen::all, kept);
+  std::vector<Start> starts = around(base, columns, known, parts, false);
+  const double own = starts.front().value;
+  std::erase_if(starts, [&](const Start& one) { return !(one.value > own - worth); });
+  const auto add = [&](std::vector<Start> more) { std::ranges::move(more, std::back_inserter(starts)); };
+  for (Part part : parts) {
+    add(alike_to(base, part, columns, known, 0.5 * alike));
+    // And what was like it where that look was made.
+    for (std::size_t j = 0; j < seen_.list.size(); ++j) {
+      if (!part.place || seen_.list[j].entry != base.point.effects[*part.place].entry) continue;
+      part.change = seen_.columns.col(static_cast<Index>(j));
+      add(alike_to(base, part, columns, known, 0.5 * alike));
+    }
+  }
+  std::set<std::size_t> entries;
+  for (const Start& start : starts)
+    for (const Added& added : start.point.effects) entries.insert(added.entry);
+  std::vector<Probe> list = probes(dictionary_, base.point);
+  std::erase_if(list, [&](const Probe& one) { return !entries.contains(one.entry); });
+  return list;
+}
+
+/// `first`: nothing has been tried yet. Whether a set became the best.
 bool Search::look_from(Model base, bool far, bool first) {
   step("looking for what would explain more");
-  std::vector<Probe> list = probes(dictionary_, base.point);
+  const std::vector<Part> parts = far ? std::vector<Part>{} : parts_of(base);
+  const bool again = !far && base.error.explains() && !bent(base) && !seen_.list.empty();
+  std::vector<Probe> list = again ? still_worth(base, parts) : probes(dictionary_, base.point);
   const Eigen::MatrixXd columns = columns_of(base, list);
-  const Eigen::VectorXd left = base.residual();
+  if (!again) seen_ = {list, columns};
   if (far) {  // what candidates explain is not the error's
+    const Eigen::VectorXd left = base.residual();
     std::vector<Index> thin;
     for (std::size_t j = 0; j < list.size(); ++j)
       if (list[j].size == 1.0) thin.push_back(static_cast<Index>(j));
@@ -137,34 +224,9 @@ bool Search::look_from(Model base, bool far, bool first) {
     variance << base.variance(), Eigen::VectorXd::Constant(std::ssize(thin), 4.0);
     base.error = base.error.fitted(left, both, variance, {1.0, 0.5}).first;
   }
-  std::vector<Start> starts = starts_from(base, columns, list, base.point, left, base.slopes, far);
+  std::vector<Start> starts = around(base, columns, list, parts, far);
   const double own = starts.front().value;
-  const auto add = [&](std::vector<Start> more) { std::ranges::move(more, std::back_inserter(starts)); };
-  std::vector<Start> other_hills;
-  std::vector<Part> parts;
-  if (!far) {
-    other_hills = twins(base, columns, list);
-    for (const int g : base.point.differ) {
-      if (is_simulated(g)) continue;  // these are in the simulation
-      Point q = base.point;
-      std::erase(q.differ, g);
-      add(starts_from(base, columns, list, q, left, base.slopes, false));
-    }
-    const auto coordinates = dictionary_.coordinates(base.point);
-    for (std::size_t i = 0; i < base.point.effects.size(); ++i) {
-      Part part{base.point.without(i), {}, log_t(base.point.effects[i].size)};
-      const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(part.rest));
-      if (!without.allFinite()) continue;
-      part.change = base.read - without;
-      std::vector<Index> kept;
-      for (std::size_t j = 0; j < coordinates.size(); ++j)
-        if (coordinates[j].kind == Kind::parameter || coordinates[j].of != i)
-          kept.push_back(static_cast<Index>(j));
-      add(starts_from(base, columns, list, part.rest, left + part.change, base.slopes(Eigen::all, kept),
-                      false));
-      parts.push_back(std::move(part));
-    }
-  }
+  const std::vector<Start> other_hills = far ? std::vector<Start>{} : twins(base, columns, list);
   std::ranges::stable_sort(starts, std::greater{}, &Start::value);
   if (!first && !outside_ && !here_->error.explains()) {
     const double terms = gain_of_terms(base), sets = starts.front().value - own;
@@ -251,20 +313,21 @@ bool Search::look_from(Model base, bool far, bool first) {
       return true;
     }
   }
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    std::vector<Start> rivals = of_other_sides(base, i, parts[i]);
-    std::ranges::move(alike_to(base, parts[i], columns, list), std::back_inserter(rivals));
-    try_rivals(base, rivals, parts[i].rest);
+  for (const Part& part : parts) {
+    std::vector<Start> rivals = of_other_sides(base, part);
+    std::ranges::move(alike_to(base, part, columns, list, 0.5 * alike), std::back_inserter(rivals));
+    try_rivals(base, rivals, part);
   }
   return false;
 }
 
 /// Of a pair, the same law as an effect at work, of another muscle or of both, where that changes the
 /// readings alike; sizes add up.
-std::vector<Start> Search::of_other_sides(const Model& base, std::size_t place, const Part& part) const {
+std::vector<Start> Search::of_other_sides(const Model& base, const Part& part) const {
   using diagnose::Side;
   std::vector<Start> starts;
-  const Added& added = base.point.effects[place];
+  if (!part.place) return starts;
+  const Added& added = base.point.effects[*part.place];
   const auto& of = dictionary_.entries[added.entry].effect;
   for (std::size_t k = 0; of && k < dictionary_.entries.size(); ++k) {
     const auto& other = dictionary_.entries[k].effect;
@@ -284,7 +347,8 @@ std::vector<Start> Search::of_other_sides(const Model& base, std::size_t place, 
 }
 
 /// What may stand for one of the names as well: told beside it, or better after all.
-void Search::try_rivals(const Model& base, const std::vector<Start>& starts, const Point& rest) {
+void Search::try_rivals(const Model& base, const std::vector<Start>& starts, const Part& part) {
+  const double square = base.error.grams(part.change, Eigen::MatrixXd(part.change.size(), 0)).sum()(0, 0);
   std::set<Names> tried;
   for (const Start& start : starts) {
     const Names names = dictionary_.names(start.point);
@@ -292,7 +356,9 @@ void Search::try_rivals(const Model& base, const std::vector<Start>& starts, con
     const auto known = table_.find({false, names});
     if (known != table_.end() && known->second.score > here_->score - clear) continue;
     if (!tried.insert(names).second) continue;
-    Model m = refined(resized(base, start.point, rest));
+    auto [point, missed] = resized(base, start.point, part.rest);
+    if (missed > (1.0 - alike) * square) continue;
+    Model m = refined(std::move(point));
     if (m.score > here_->score) here_ = std::move(m);
   }
 }

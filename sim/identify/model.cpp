@@ -175,10 +175,7 @@ double Model::evidence() {
     look_at_wander();
   }
   const Eigen::VectorXd prior_variance = variance(), left = residual();
-  // The error has several optima.
-  auto [one, value_of_one] = error.fitted(left, slopes, prior_variance, {0.5});
-  auto [other, value_of_other] = error.begun().fitted(left, slopes, prior_variance, {1.0, 0.5});
-  error = value_of_one >= value_of_other ? std::move(one) : std::move(other);
+  error = error.fitted_anew(left, slopes, prior_variance);
   fit_error({0.25});
   grams = error.grams(left, slopes);
   const Eigen::MatrixXd gram = grams.sum();

@@ -17,6 +17,7 @@ using Eigen::Index;
 namespace {
 
 constexpr std::array sizes{1.0, 0.1, 3.0};  // a slope, and secants for what has a kink
+constexpr double coarse = 1e-4;             // tolerance: directions need no digits
 constexpr std::size_t beam = 60;
 constexpr double size_variance = 4.0;  // of a size, while sets are compared
 
@@ -60,6 +61,23 @@ Eigen::VectorXd column_of_clock(const Model& model, const BenchNumber& clock, co
   return column;
 }
 
+/// Of a pair, where in the list muscle 1's and muscle 2's part of what both have are; empty: one is not.
+std::vector<std::size_t> sides_of(const Dictionary& dictionary, const std::vector<Probe>& list,
+                                  const Probe& probe) {
+  using diagnose::Side;
+  const auto& both = dictionary.entries[probe.entry].effect;
+  std::vector<std::size_t> places;
+  if (!both || both->side != Side::both) return places;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto& one = dictionary.entries[list[i].entry].effect;
+    if (one && one->side != Side::both && one->effect == both->effect && one->variant == both->variant &&
+        list[i].size == probe.size && list[i].shapes == probe.shapes)
+      places.push_back(i);
+  }
+  if (places.size() < 2) places.clear();
+  return places;
+}
+
 }  // namespace
 
 Eigen::MatrixXd columns_of(const Model& model, std::vector<Probe>& list) {
@@ -74,6 +92,10 @@ Eigen::MatrixXd columns_of(const Model& model, std::vector<Probe>& list) {
       ++first;
       continue;
     }
+    if (!sides_of(dictionary, list, list[first]).empty()) {  // their sum, below
+      ++first;
+      continue;
+    }
     settings.assign(1, dictionary.setting(model.point));
     while (last < list.size() && list[last].entry == list[first].entry) {
       Point q = model.point;
@@ -82,10 +104,17 @@ Eigen::MatrixXd columns_of(const Model& model, std::vector<Probe>& list) {
       settings.push_back(dictionary.setting(q));
       ++last;
     }
-    const Eigen::MatrixXd changes = model.problem->simulator.differences(settings);
+    const Eigen::MatrixXd changes = model.problem->simulator.differences(settings, coarse);
     for (std::size_t i = first; i < last; ++i)
       columns.col(static_cast<Index>(i)) = changes.col(static_cast<Index>(i - first + 1)) / list[i].size;
     first = last;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::vector<std::size_t> sides = sides_of(dictionary, list, list[i]);
+    if (sides.empty()) continue;
+    columns.col(static_cast<Index>(i)).setZero();
+    for (const std::size_t side : sides)
+      columns.col(static_cast<Index>(i)) += columns.col(static_cast<Index>(side));
   }
   std::vector<Index> kept;
   std::vector<Probe> good;

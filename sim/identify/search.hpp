@@ -83,17 +83,22 @@ class Search {
   struct Part {
     Point rest;
     Eigen::VectorXd change;
-    double log_prior;  ///< of its size
+    double log_prior;                  ///< of its size
+    std::optional<std::size_t> place;  ///< among the model's effects; none: it differs from run to run
   };
+  std::vector<Part> parts_of(const Model& base) const;
   std::vector<Start> alike_to(const Model& base, const Part& part, const Eigen::MatrixXd& columns,
-                              const std::vector<Probe>& probes) const;
-  Point resized(const Model& base, Point point, const Point& rest) const;
+                              const std::vector<Probe>& probes, double least = alike) const;
+  std::pair<Point, double> resized(const Model& base, Point point, const Point& rest) const;
   std::vector<Start> twins(const Model& base, const Eigen::MatrixXd& columns,
                            const std::vector<Probe>& probes) const;
+  std::vector<Start> around(const Model& base, const Eigen::MatrixXd& columns,
+                            const std::vector<Probe>& probes, const std::vector<Part>& parts, bool far) const;
+  std::vector<Probe> still_worth(const Model& base, const std::vector<Part>& parts) const;
   bool look_from(Model base, bool far, bool first);
   void prune();
-  std::vector<Start> of_other_sides(const Model& base, std::size_t place, const Part& part) const;
-  void try_rivals(const Model& base, const std::vector<Start>& starts, const Point& rest);
+  std::vector<Start> of_other_sides(const Model& base, const Part& part) const;
+  void try_rivals(const Model& base, const std::vector<Start>& starts, const Part& part);
   void describe_bench();
   double gain_of_terms(const Model& base) const;
   void try_terms();
@@ -104,6 +109,11 @@ class Search {
   const Rows& rows_;
   std::map<Key, Model> table_;
   std::optional<Model> here_, at_;
+  /// What the last look saw of all candidates.
+  struct {
+    std::vector<Probe> list;
+    Eigen::MatrixXd columns;
+  } seen_;
   std::set<std::pair<Names, std::vector<double>>> begun_;
   std::set<Names> hills_;
   std::size_t stage_ = 0;

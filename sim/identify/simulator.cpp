@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <sim/diagnose/predict.hpp>
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/engine/batch.hpp>
 #include <sim/identify/decisive.hpp>
 #include <sim/identify/simulator.hpp>
@@ -18,7 +19,9 @@ using diagnose::Readings;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t others = engine::Batch::width - 1;  // in the lanes beside the first
 constexpr std::size_t most_knots = 24;                    // of a run
-constexpr double step = 0.01, step_kg = 0.2;  // of an input or a start, of a load, for a difference
+constexpr double step = 0.01;                             // of an input or a start, for a difference
+// Of a load, to both sides: a load at rest on its stop, or held by friction, shows no smaller one.
+constexpr double load_step = 0.1;
 
 /// What one setting reads in a block's rows.
 Eigen::VectorXd seen(const Rows& rows, const Block& block, const Readings& readings, const Bench& bench) {
@@ -78,124 +81,141 @@ Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate, double later_r
   return list;
 }
 
-Eigen::VectorXd Simulator::read(const Setting& setting) const {
-  Eigen::VectorXd list = Eigen::VectorXd::Constant(rows_.size(), nothing);
-  const std::size_t runs = rows_.runs.size();
-  diagnose::predict_all(
-      runs, runs, threads_, rows_.data().rig.integrator.method,
-      [&](std::size_t run) {
-        const domain::Run& measured = rows_.data().runs[rows_.runs[run]];
-        diagnose::Wanted one{&measured, {{setting.rig, setting.bench.load_kg(measured.load_kg, run)}}};
-        one.disturbance.begin = [&setting, run](std::size_t, ride::Underway& begins) {
-          begin(setting.bench, run, begins);
-        };
-        one.finely = true;
-        return one;
-      },
-      [&](std::size_t run, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
-        if (failure) return;
-        each_block(rows_, run, [&](const Block& block, const auto& part) {
-          list(part) = seen(rows_, block, readings.front(), setting.bench);
-        });
-      });
-  ++passes_;
-  return list;
+template <class Make>
+Eigen::MatrixXd Simulator::once(std::size_t passes, const Make& make) const {
+  if (keeps_ && asked_ < kept_.size()) return kept_[asked_++];
+  Eigen::MatrixXd made = make();
+  passes_ += static_cast<long>(passes);
+  if (keeps_) {
+    kept_.push_back(made);
+    ++asked_;
+  }
+  return made;
 }
 
-Eigen::MatrixXd Simulator::differences(std::span<const Setting> settings) const {
-  Eigen::MatrixXd list =
-      Eigen::MatrixXd::Constant(rows_.size(), static_cast<Eigen::Index>(settings.size()), nothing);
-  std::vector<Job> jobs;
-  for (std::size_t run = 0; run < rows_.runs.size(); ++run)
-    for (std::size_t first = 1; first == 1 || first < settings.size(); first += others) {
-      jobs.push_back({run, {0}, first == 1});
-      for (std::size_t i = first; i < std::min(first + others, settings.size()); ++i)
-        jobs.back().settings.push_back(i);
-    }
-  const auto wanted = [&](const Job& job) {
-    diagnose::Wanted one{&rows_.data().runs[rows_.runs[job.run]], {}};
-    for (const std::size_t i : job.settings)
-      one.rigs.push_back({settings[i].rig, settings[i].bench.load_kg(one.run->load_kg, job.run)});
-    one.disturbance.begin = [&settings, job](std::size_t i, ride::Underway& begins) {
-      begin(settings[job.settings[i]].bench, job.run, begins);
-    };
-    return one;
-  };
-  const auto take = [&](const Job& job, const std::vector<Readings>& readings) {
-    each_block(rows_, job.run, [&](const Block& block, const auto& part) {
-      const Eigen::VectorXd base = seen(rows_, block, readings.front(), settings[0].bench);
-      if (job.tells_first) list(part, 0) = base;
-      for (std::size_t k = 1; k < job.settings.size(); ++k)
-        list(part, static_cast<Eigen::Index>(job.settings[k])) =
-            seen(rows_, block, readings[k], settings[job.settings[k]].bench) - base;
-    });
-  };
-  const auto fly = [&](const std::vector<Job>& all, bool again) {
-    std::vector<char> missed(all.size(), 0);
+Eigen::VectorXd Simulator::read(const Setting& setting) const {
+  return once(1, [&] {
+    Eigen::MatrixXd list = Eigen::MatrixXd::Constant(rows_.size(), 1, nothing);
+    const std::size_t runs = rows_.runs.size();
     diagnose::predict_all(
-        all.size(), all.size() * engine::Batch::width, threads_, rows_.data().rig.integrator.method,
-        [&](std::size_t index) { return wanted(all[index]); },
-        [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
-          if (!failure)
-            take(all[index], readings);
-          else if (!again)
-            missed[index] = 1;
+        runs, runs, threads_, rows_.data().rig.integrator.method,
+        [&](std::size_t run) {
+          const domain::Run& measured = rows_.data().runs[rows_.runs[run]];
+          diagnose::Wanted one{&measured, {{setting.rig, setting.bench.load_kg(measured.load_kg, run)}}};
+          one.disturbance.begin = [&setting, run](std::size_t, ride::Underway& begins) {
+            begin(setting.bench, run, begins);
+          };
+          one.tolerance = diagnose::thresholds.predict.tolerance_alone;
+          return one;
+        },
+        [&](std::size_t run, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+          if (failure) return;
+          each_block(rows_, run, [&](const Block& block, const auto& part) {
+            list(part, 0) = seen(rows_, block, readings.front(), setting.bench);
+          });
         });
-    // Some of a group could not go on: each by itself.
-    std::vector<Job> alone;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (missed[i] != 0)
-        for (std::size_t k = all[i].settings.size() > 1 ? 1 : 0; k < all[i].settings.size(); ++k) {
-          alone.push_back({all[i].run, {0}, all[i].tells_first && k <= 1});
-          if (k > 0) alone.back().settings.push_back(all[i].settings[k]);
-        }
-    return alone;
-  };
-  if (const auto alone = fly(jobs, false); !alone.empty()) fly(alone, true);
-  passes_ += static_cast<long>(settings.size());
-  return list;
+    return list;
+  });
+}
+
+Eigen::MatrixXd Simulator::differences(std::span<const Setting> settings,
+                                       std::optional<double> tolerance) const {
+  return once(settings.size(), [&] {
+    Eigen::MatrixXd list =
+        Eigen::MatrixXd::Constant(rows_.size(), static_cast<Eigen::Index>(settings.size()), nothing);
+    std::vector<Job> jobs;
+    for (std::size_t run = 0; run < rows_.runs.size(); ++run)
+      for (std::size_t first = 1; first == 1 || first < settings.size(); first += others) {
+        jobs.push_back({run, {0}, first == 1});
+        for (std::size_t i = first; i < std::min(first + others, settings.size()); ++i)
+          jobs.back().settings.push_back(i);
+      }
+    const auto wanted = [&](const Job& job) {
+      diagnose::Wanted one{&rows_.data().runs[rows_.runs[job.run]], {}};
+      one.tolerance = tolerance;
+      for (const std::size_t i : job.settings)
+        one.rigs.push_back({settings[i].rig, settings[i].bench.load_kg(one.run->load_kg, job.run)});
+      one.disturbance.begin = [&settings, job](std::size_t i, ride::Underway& begins) {
+        begin(settings[job.settings[i]].bench, job.run, begins);
+      };
+      return one;
+    };
+    const auto take = [&](const Job& job, const std::vector<Readings>& readings) {
+      each_block(rows_, job.run, [&](const Block& block, const auto& part) {
+        const Eigen::VectorXd base = seen(rows_, block, readings.front(), settings[0].bench);
+        if (job.tells_first) list(part, 0) = base;
+        for (std::size_t k = 1; k < job.settings.size(); ++k)
+          list(part, static_cast<Eigen::Index>(job.settings[k])) =
+              seen(rows_, block, readings[k], settings[job.settings[k]].bench) - base;
+      });
+    };
+    const auto fly = [&](const std::vector<Job>& all, bool again) {
+      std::vector<char> missed(all.size(), 0);
+      diagnose::predict_all(
+          all.size(), all.size() * engine::Batch::width, threads_, rows_.data().rig.integrator.method,
+          [&](std::size_t index) { return wanted(all[index]); },
+          [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+            if (!failure)
+              take(all[index], readings);
+            else if (!again)
+              missed[index] = 1;
+          });
+      // Some of a group could not go on: each by itself.
+      std::vector<Job> alone;
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (missed[i] != 0)
+          for (std::size_t k = all[i].settings.size() > 1 ? 1 : 0; k < all[i].settings.size(); ++k) {
+            alone.push_back({all[i].run, {0}, all[i].tells_first && k <= 1});
+            if (k > 0) alone.back().settings.push_back(all[i].settings[k]);
+          }
+      return alone;
+    };
+    if (const auto alone = fly(jobs, false); !alone.empty()) fly(alone, true);
+    return list;
+  });
 }
 
 Eigen::MatrixXd Simulator::rubs(const Setting& setting, double reach_m, std::size_t places) const {
-  Eigen::MatrixXd list = Eigen::MatrixXd::Zero(rows_.size(), static_cast<Eigen::Index>(places));
-  constexpr double rub_N = 0.3, slip_m_per_s = 1e-3;
-  const double width_m = reach_m / static_cast<double>(places), rest_m = setting.rig.muscle.rest_length_m;
-  const std::size_t groups = (places + others - 1) / others;
-  diagnose::predict_all(
-      rows_.runs.size() * groups, rows_.runs.size() * groups * engine::Batch::width, threads_,
-      rows_.data().rig.integrator.method,
-      [&](std::size_t index) {
-        const std::size_t run = index / groups, first = index % groups * others;
-        diagnose::Wanted one{&rows_.data().runs[rows_.runs[run]], {}};
-        const std::size_t count = std::min(others, places - first);
-        one.rigs.assign(count + 1, {setting.rig, setting.bench.load_kg(one.run->load_kg, run)});
-        one.disturbance.begin = [&setting, run](std::size_t, ride::Underway& begins) {
-          begin(setting.bench, run, begins);
-        };
-        one.disturbance.drive = [=](const ride::Rider& rider, std::size_t i, double, double,
-                                    ride::Drive& drive) {
-          if (i == 0) return;
-          const auto& joint = rider.now.flow.state.joint;
-          const double centre_m = (static_cast<double>(first + i) - 0.5) * width_m;
-          const double near =
-              std::max(1.0 - std::abs(joint.contraction_ratio * rest_m - centre_m) / width_m, 0.0);
-          drive.joint_force_N +=
-              rub_N * std::tanh(joint.contraction_speed_per_s * rest_m / slip_m_per_s) * near;
-        };
-        return one;
-      },
-      [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
-        if (failure) return;
-        const std::size_t run = index / groups, first = index % groups * others;
-        each_block(rows_, run, [&](const Block& block, const auto& part) {
-          const Eigen::VectorXd base = seen(rows_, block, readings.front(), setting.bench);
-          for (std::size_t i = 1; i < readings.size(); ++i)
-            list(part, static_cast<Eigen::Index>(first + i - 1)) =
-                (seen(rows_, block, readings[i], setting.bench) - base) / rub_N;
+  return once(places + 1, [&] {
+    Eigen::MatrixXd list = Eigen::MatrixXd::Zero(rows_.size(), static_cast<Eigen::Index>(places));
+    constexpr double rub_N = 0.3, slip_m_per_s = 1e-3;
+    const double width_m = reach_m / static_cast<double>(places), rest_m = setting.rig.muscle.rest_length_m;
+    const std::size_t groups = (places + others - 1) / others;
+    diagnose::predict_all(
+        rows_.runs.size() * groups, rows_.runs.size() * groups * engine::Batch::width, threads_,
+        rows_.data().rig.integrator.method,
+        [&](std::size_t index) {
+          const std::size_t run = index / groups, first = index % groups * others;
+          diagnose::Wanted one{&rows_.data().runs[rows_.runs[run]], {}};
+          const std::size_t count = std::min(others, places - first);
+          one.rigs.assign(count + 1, {setting.rig, setting.bench.load_kg(one.run->load_kg, run)});
+          one.disturbance.begin = [&setting, run](std::size_t, ride::Underway& begins) {
+            begin(setting.bench, run, begins);
+          };
+          one.disturbance.drive = [=](const ride::Rider& rider, std::size_t i, double, double,
+                                      ride::Drive& drive) {
+            if (i == 0) return;
+            const auto& joint = rider.now.flow.state.joint;
+            const double centre_m = (static_cast<double>(first + i) - 0.5) * width_m;
+            const double near =
+                std::max(1.0 - std::abs(joint.contraction_ratio * rest_m - centre_m) / width_m, 0.0);
+            drive.joint_force_N +=
+                rub_N * std::tanh(joint.contraction_speed_per_s * rest_m / slip_m_per_s) * near;
+          };
+          return one;
+        },
+        [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+          if (failure) return;
+          const std::size_t run = index / groups, first = index % groups * others;
+          each_block(rows_, run, [&](const Block& block, const auto& part) {
+            const Eigen::VectorXd base = seen(rows_, block, readings.front(), setting.bench);
+            for (std::size_t i = 1; i < readings.size(); ++i)
+              list(part, static_cast<Eigen::Index>(first + i - 1)) =
+                  (seen(rows_, block, readings[i], setting.bench) - base) / rub_N;
+          });
         });
-      });
-  passes_ += static_cast<long>(places + 1);
-  return list;
+    return list;
+  });
 }
 
 namespace {
@@ -226,7 +246,7 @@ Wander Simulator::wander(const Setting& setting) const {
   Wander made;
   struct Lane {
     std::size_t knot = 0, muscle = 0;
-    bool load = false;
+    double load = 0.0;  ///< share of it that is added
     const StartNumber* start = nullptr;
   };
   std::vector<const StartNumber*> starts;
@@ -254,7 +274,7 @@ Wander Simulator::wander(const Setting& setting) const {
                       1e9 * static_cast<double>(muscle));  // the muscles' wanders know nothing of each other
       }
     for (const StartNumber* number : starts) list.push_back({.start = number});
-    list.push_back({.load = true});
+    for (const double side : {load_step, -load_step}) list.push_back({.load = side});
     most = std::max(most, all.size() + starts.size());
     made.knots.push_back(std::move(all));
   }
@@ -267,61 +287,70 @@ Wander Simulator::wander(const Setting& setting) const {
   for (std::size_t run = 0; run < lanes.size(); ++run)
     for (std::size_t first = 0; first < lanes[run].size(); first += others)
       groups.push_back({run, first, std::min(first + others, lanes[run].size())});
-  diagnose::predict_all(
-      groups.size(), groups.size() * engine::Batch::width, threads_, data.rig.integrator.method,
-      [&](std::size_t index) {
-        const Group& g = groups[index];
-        diagnose::Wanted one{&data.runs[rows_.runs[g.run]], {}};
-        const double load_kg = setting.bench.load_kg(one.run->load_kg, g.run);
-        one.rigs.assign(g.last - g.first + 1, {setting.rig, load_kg});
-        for (std::size_t i = g.first; i < g.last; ++i)
-          if (lanes[g.run][i].load) one.rigs[i - g.first + 1].load_kg += step_kg;
-        one.disturbance.drive = [&, g,
-                                 begin_s = one.run->measured && !one.run->measured->time_s.empty()
-                                               ? one.run->measured->time_s.front()
-                                               : 0.0](const ride::Rider&, std::size_t i, double from_s,
-                                                      double to_s, ride::Drive& drive) {
-          if (i == 0) return;
-          const Lane& lane = lanes[g.run][g.first + i - 1];
-          if (lane.load || lane.start != nullptr) return;
-          const auto& knots = made.knots[g.run];
-          const bool given = lane.muscle == 0 ? drive.given() != plant::GivenPressure::none
-                                              : drive.opposite.given() != plant::GivenPressure::none;
-          const double at_s = (given ? to_s : from_s) - begin_s;
-          const double share = std::isinf(at_s) ? (lane.knot == 0 ? 1.0 : 0.0)
-                               : lane.knot == 0 ? 0.0
-                                                : hat(knots, lane.knot, at_s);
-          if (share != 0.0) wander_by(step * share, lane.muscle, data.rig, drive);
-        };
-        one.disturbance.begin = [&, g](std::size_t i, ride::Underway& begins) {
-          begin(setting.bench, g.run, begins);
-          const StartNumber* number = i == 0 ? nullptr : lanes[g.run][g.first + i - 1].start;
-          if (number != nullptr) begins.*(number->of) += step * number->deviation;
-        };
-        return one;
-      },
-      [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
-        if (failure) return;
-        const Group& g = groups[index];
-        each_block(rows_, g.run, [&](const Block& block, const auto& part) {
-          const Eigen::VectorXd base = seen(rows_, block, readings.front(), setting.bench);
-          if (g.first == 0) made.read(part) = base;
-          for (std::size_t i = g.first; i < g.last; ++i) {
-            const Eigen::VectorXd change =
-                seen(rows_, block, readings[i - g.first + 1], setting.bench) - base;
-            if (lanes[g.run][i].load)
-              made.load(part) = change / step_kg;
-            else
-              made.columns(part, static_cast<Eigen::Index>(i)) = change / step;
-          }
+  const Eigen::MatrixXd all = once(most + 3, [&] {
+    diagnose::predict_all(
+        groups.size(), groups.size() * engine::Batch::width, threads_, data.rig.integrator.method,
+        [&](std::size_t index) {
+          const Group& g = groups[index];
+          diagnose::Wanted one{&data.runs[rows_.runs[g.run]], {}};
+          const double load_kg = setting.bench.load_kg(one.run->load_kg, g.run);
+          one.rigs.assign(g.last - g.first + 1, {setting.rig, load_kg});
+          for (std::size_t i = g.first; i < g.last; ++i)
+            one.rigs[i - g.first + 1].load_kg *= 1.0 + lanes[g.run][i].load;
+          one.disturbance.drive = [&, g,
+                                   begin_s = one.run->measured && !one.run->measured->time_s.empty()
+                                                 ? one.run->measured->time_s.front()
+                                                 : 0.0](const ride::Rider&, std::size_t i, double from_s,
+                                                        double to_s, ride::Drive& drive) {
+            if (i == 0) return;
+            const Lane& lane = lanes[g.run][g.first + i - 1];
+            if (lane.load != 0.0 || lane.start != nullptr) return;
+            const auto& knots = made.knots[g.run];
+            const bool given = lane.muscle == 0 ? drive.given() != plant::GivenPressure::none
+                                                : drive.opposite.given() != plant::GivenPressure::none;
+            const double at_s = (given ? to_s : from_s) - begin_s;
+            const double share = std::isinf(at_s) ? (lane.knot == 0 ? 1.0 : 0.0)
+                                 : lane.knot == 0 ? 0.0
+                                                  : hat(knots, lane.knot, at_s);
+            if (share != 0.0) wander_by(step * share, lane.muscle, data.rig, drive);
+          };
+          one.disturbance.begin = [&, g](std::size_t i, ride::Underway& begins) {
+            begin(setting.bench, g.run, begins);
+            const StartNumber* number = i == 0 ? nullptr : lanes[g.run][g.first + i - 1].start;
+            if (number != nullptr) begins.*(number->of) += step * number->deviation;
+          };
+          return one;
+        },
+        [&](std::size_t index, const std::vector<Readings>& readings, const std::exception_ptr& failure) {
+          if (failure) return;
+          const Group& g = groups[index];
+          each_block(rows_, g.run, [&](const Block& block, const auto& part) {
+            const Eigen::VectorXd base = seen(rows_, block, readings.front(), setting.bench);
+            if (g.first == 0) made.read(part) = base;
+            for (std::size_t i = g.first; i < g.last; ++i) {
+              const Eigen::VectorXd change =
+                  seen(rows_, block, readings[i - g.first + 1], setting.bench) - base;
+              if (const double side = lanes[g.run][i].load; side != 0.0)
+                made.load(part) +=
+                    change /
+                    (2.0 * side * setting.bench.load_kg(data.runs[rows_.runs[g.run]].load_kg, g.run));
+              else
+                made.columns(part, static_cast<Eigen::Index>(i)) = change / step;
+            }
+          });
         });
-      });
+    Eigen::MatrixXd list(rows_.size(), made.columns.cols() + 2);
+    list << made.columns, made.read, made.load;
+    return list;
+  });
+  made.columns = all.leftCols(made.columns.cols());
+  made.read = all.col(made.columns.cols());
+  made.load = all.col(made.columns.cols() + 1);
   for (const Block& block : rows_.blocks)
     made.together.segment(block.begin, block.rows) = made.columns.middleRows(block.begin, block.rows)
                                                          .leftCols(std::ssize(made.knots[block.run]))
                                                          .rowwise()
                                                          .sum();
-  passes_ += static_cast<long>(most + 2);
   return made;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct Wander {
   Eigen::VectorXd together{};      ///< by all knots of a run at once
 };
 
+/// What was simulated, in the order in which a search asked for it: it asks for the same again.
+using Simulated = std::vector<Eigen::MatrixXd>;
+
 /// What a recorder whose clock runs fast, and is ahead by so many rows, shows: it reads at t (1 + rate) +
 /// later.
 Eigen::VectorXd clocked(const Eigen::VectorXd& read, double rate, double later_rows = 0.0);
@@ -36,18 +40,35 @@ class Simulator {
   /// cannot go on.
   Eigen::VectorXd read(const Setting& setting) const;
   /// The first as it reads, the others less the first, in common steps with it.
-  Eigen::MatrixXd differences(std::span<const Setting> settings) const;
+  Eigen::MatrixXd differences(std::span<const Setting> settings, std::optional<double> tolerance = {}) const;
   /// The change by friction of 1 N in each of so many places along the stroke (general terms).
   Eigen::MatrixXd rubs(const Setting& setting, double reach_m, std::size_t places) const;
 
   Wander wander(const Setting& setting) const;
 
+  /// That were simulated, and not known.
   long passes() const { return passes_; }
 
+  /// Keeps from now on what is simulated; what is known of an earlier search is not simulated again.
+  void keep(Simulated known) const {
+    kept_ = std::move(known);
+    keeps_ = true;
+  }
+  /// What was kept; no more is.
+  Simulated kept() const {
+    keeps_ = false;
+    return std::move(kept_);
+  }
+
  private:
+  template <class Make>
+  Eigen::MatrixXd once(std::size_t passes, const Make& make) const;
   const Rows& rows_;
   unsigned threads_;
   mutable std::atomic<long> passes_{0};
+  mutable Simulated kept_{};
+  mutable std::size_t asked_ = 0;  ///< of these
+  mutable bool keeps_ = false;
 };
 
 }  // namespace mckibben::identify

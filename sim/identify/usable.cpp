@@ -1,5 +1,4 @@
 // See the header.
-#include <numeric>
 #include <utility>
 
 #include <sim/data/examine.hpp>
@@ -51,6 +50,7 @@ Usable usable(domain::Dataset& data, unsigned threads) {
   for (const std::size_t run : examined.dead_opposite_gauges) data.runs[run].opposite_pressure_Pa.reset();
   Usable result{.masked = std::move(examined.masked), .runs = {}};
   data::require_enough(data, left_out, examined.findings);
+  data::raise_for_diagnosis(data, examined.findings);
   for (const data::Finding& finding : examined.findings)
     if (finding.severity == data::Severity::undecidable)
       result.cannot_tell = finding.message;
@@ -58,10 +58,6 @@ Usable usable(domain::Dataset& data, unsigned threads) {
       report(data, finding, result);
   for (std::size_t run = 0; run < data.runs.size(); ++run)
     if (!left_out[run]) result.runs.push_back(run);
-  if (result.runs.empty()) {  // something to show all the same
-    result.runs.resize(data.runs.size());
-    std::iota(result.runs.begin(), result.runs.end(), std::size_t{0});
-  }
   return result;
 }
 

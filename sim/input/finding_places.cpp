@@ -25,7 +25,7 @@ std::vector<Problem> problems_of(const std::filesystem::path& path,
   if (findings.empty()) return {};
   Problems problems;
   const auto tell = [&](const Source& source, Place place, const data::Finding& finding) {
-    if (finding.severity == data::Severity::refused)
+    if (data::is_error(finding))
       problems.error(source, place, finding.message);
     else
       problems.warning(source, place, finding.message);

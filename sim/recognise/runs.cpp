@@ -108,6 +108,19 @@ std::vector<UnknownTable> segments_of(const UnknownTable& table, const char* by,
   return runs;
 }
 
+void say_restarts(std::vector<UnknownTable>& parts, const std::string& clock) {
+  constexpr std::size_t most_said = 5;
+  std::vector<std::size_t> rows;
+  std::size_t row = 1;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    row += parts[i].rows();
+    if (rows.size() < most_said) rows.push_back(row);
+  }
+  std::string& note = parts.front().note;
+  note += fmt::format("{}{} begins again at row {}{}: {} runs", note.empty() ? "" : "; ", clock,
+                      fmt::join(rows, ", "), rows.size() + 1 < parts.size() ? ", ..." : "", parts.size());
+}
+
 /// A mark in the first row of each run.
 bool is_mark(const Labels& labels) {
   if (labels.count != 2 || !labels.column->texts.empty()) return false;
@@ -277,6 +290,8 @@ std::vector<UnknownTable> runs_in(const UnknownTable& table) {
     if (parts.size() < 2) {
       parts.clear();
       parts.push_back(std::move(labelled));
+    } else {
+      say_restarts(parts, stamps->name);
     }
     for (UnknownTable& part : parts) {
       const std::optional<Long> own = long_table(part);

@@ -41,7 +41,7 @@ struct UnknownTable {
   domain::InputFile input;
   std::vector<std::string> remarks;    ///< lines above the headings
   std::vector<Remark> settings;        ///< those of them that say a value
-  std::string note{};                  ///< that it is too large for all of its rows; empty if it is not
+  std::string note{};                  ///< that not all of its rows are here, or are one run; else empty
   std::vector<UnknownColumn> columns;  ///< of numbers; `time_is_inside` of an .lvm comes without one
   std::vector<UnknownColumn> texts;    ///< of a few words that come again
   std::vector<std::string> words;      ///< columns that hold neither

@@ -1,9 +1,16 @@
 // See the header.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
+#include <numeric>
+#include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include <sim/data/judged.hpp>
+#include <sim/data/plausible.hpp>
 #include <sim/data/stamps.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/run/batch.hpp>
@@ -21,6 +28,47 @@ domain::Run beginning_of(domain::Run run, std::size_t rows) {
   if (!run.missing.empty()) run.missing.resize(rows);
   if (run.measured) run.measured->rows.resize(rows);
   return run;
+}
+
+/// Sum of the squared differences between measured and simulated; infinite if a run was not simulated.
+double squares(const domain::Dataset& data, const std::vector<data::Expected>& expected) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const domain::Run& run = data.runs[i];
+    if (expected[i].judged.size() != run.judged().size()) return std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < run.judged().size(); ++k)
+      if (run.missing.empty() || !run.missing[k]) sum += std::pow(run.judged()[k] - expected[i].judged[k], 2);
+  }
+  return sum;
+}
+
+/// A given pressure that never comes near open air's tells nothing by itself; with one atmosphere less the
+/// rig may come much nearer. Of two muscles most of it cancels.
+void ask_absolute(domain::Dataset data, double squares_as_said, std::vector<data::Finding>& findings) {
+  if (!data.pressure_is_given() || data.rig.pair() != nullptr) return;
+  const auto& limits = data::thresholds.plausible;
+  double lowest_Pa = std::numeric_limits<double>::infinity();
+  for (domain::Run& run : data.runs)
+    for (domain::MeasuredColumn& column : run.measured->columns)
+      if (column.given && column.is_pressure())
+        for (double& value_Pa : column.values) {
+          lowest_Pa = std::fmin(lowest_Pa, value_Pa);
+          value_Pa -= data.rig.gas.atmosphere_Pa;
+        }
+  if (lowest_Pa < limits.most_atmosphere_Pa) return;
+  const double left = std::sqrt(
+      squares(data, expected_of(data, replay(data, 0, [](const auto&, auto, auto) {}))) / squares_as_said);
+  const std::string key = "muscle_pressure", then = data::if_absolute(data, 0, key);
+  if (!(left < limits.nearer) || then.empty()) return;
+  std::vector<std::size_t> runs(data.runs.size());
+  std::iota(runs.begin(), runs.end(), std::size_t{0});
+  findings.push_back({.quantity = key,
+                      .runs = std::move(runs),
+                      .message = fmt::format(
+                          "{} never comes below {:.3g} bar, and with one atmosphere less {:.2g} times the "
+                          "rig's error is left: is it absolute, or the muscle weaker than the rig says? {}",
+                          key, lowest_Pa / plant::Pa_per_bar, left, then),
+                      .severity = data::Severity::doubtful});
 }
 
 }  // namespace
@@ -50,6 +98,34 @@ std::vector<data::Expected> expected_of(const domain::Dataset& data,
   return list;
 }
 
+void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>& replayed,
+                     std::vector<data::Finding>& findings) {
+  constexpr double still_per_s = 2e-3, still_rad_per_s = 0.02;
+  if (data.recorded.start != domain::Start::settled || data.recorded.skip_s > 0.0) return;
+  const bool pair = data.rig.pair() != nullptr;
+  bool may_move = !pair;
+  double fastest = 0.0;
+  std::vector<std::size_t> runs;
+  for (std::size_t i = 0; i < replayed.size(); ++i) {
+    if (replayed[i].recording.samples.empty() || data.runs[i].length_is_given()) continue;
+    const Sample& first = replayed[i].recording.samples.front();
+    const double speed =
+        std::abs(pair ? first.angle_speed_rad_per_s : first.state.joint.contraction_speed_per_s);
+    if (speed <= (pair ? still_rad_per_s : still_per_s)) continue;
+    runs.push_back(i);
+    fastest = std::max(fastest, speed);
+    may_move = may_move && !(data.runs[i].measured && data.runs[i].measured->point_s > 0.0);
+  }
+  if (runs.empty()) return;
+  findings.push_back(
+      {.runs = std::move(runs),
+       .message = fmt::format("is to begin at rest, and after settling_time ({:.4g} s) still moves at {:.2g} "
+                              "{}: a longer settling_time of the rig{}",
+                              data.rig.settling_time_s, fastest, pair ? "rad/s" : "of its length a second",
+                              may_move ? ", or start: moving" : ""),
+       .severity = data::Severity::doubtful});
+}
+
 Look look(domain::Dataset data) {
   std::vector<data::Finding> findings;
   if (!data.rows_of_stamps) findings = data::mend_at_stamps(data);
@@ -69,11 +145,14 @@ Look look(domain::Dataset data) {
     data.runs.push_back(beginning_of(std::move(runs[i]), most_rows_of_a_run));
   const auto replayed = replay(data, 0, [](const auto&, auto, auto) {});
   if (interrupted()) throw Interrupted();
-  data::Examined examined = data::examine(data, expected_of(data, replayed));
+  const std::vector<data::Expected> expected = expected_of(data, replayed);
+  data::Examined examined = data::examine(data, expected);
   if (step == 1 && all)
     data::require_enough(data, examined.left_out, examined.findings);
   else
     std::erase_if(examined.findings, [](const data::Finding& one) { return one.quantity.empty(); });
+  add_not_at_rest(data, replayed, examined.findings);
+  ask_absolute(data, squares(data, expected), examined.findings);
   for (data::Finding& finding : examined.findings)
     for (std::size_t& run : finding.runs) run *= step;
   std::ranges::move(examined.findings, std::back_inserter(findings));

@@ -13,6 +13,10 @@ namespace mckibben::run {
 std::vector<data::Expected> expected_of(const domain::Dataset& data,
                                         const std::vector<ReplayedRun>& replayed);
 
+/// Runs that are to begin at rest, and swing on longer than they were given.
+void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>& replayed,
+                     std::vector<data::Finding>& findings);
+
 struct Look {
   std::vector<data::Finding> findings;
   std::size_t runs = 0;  ///< that were looked at

@@ -58,8 +58,7 @@ class Replaying {
 
   void take(std::size_t i, Recording recording) {
     const domain::Run& run = dataset_.runs[i];
-    if (!run.measured)
-      for (Sample& row : recording.samples) row.time_s = tidy_s(row.time_s);
+    for (Sample& row : recording.samples) row.time_s = tidy_s(row.time_s);
     recording.driven.force = !run.force_N.empty() || (run.measured && !run.measured->read("force").empty());
     runs_[i].failure = recording.failure;
     if (recording.failure.empty()) runs_[i].gaps = gaps_of(run, dataset_.rig, recording);

@@ -33,52 +33,40 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig
 
 namespace {
 
-/// What a run is said to begin at rest with, and does not: it swings on longer than it was given.
-std::vector<std::string> not_at_rest(const domain::Dataset& dataset,
-                                     const std::vector<run::ReplayedRun>& runs) {
-  constexpr double still_per_s = 2e-3, still_rad_per_s = 0.02;
-  std::vector<std::string> warnings;
-  if (dataset.recorded.start != domain::Start::settled || dataset.recorded.skip_s > 0.0) return warnings;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].recording.samples.empty() || dataset.runs[i].length_is_given()) continue;
-    const run::Sample& first = runs[i].recording.samples.front();
-    const bool pair = dataset.rig.pair() != nullptr;
-    const bool points = dataset.runs[i].measured && dataset.runs[i].measured->point_s > 0.0;
-    const double speed =
-        std::abs(pair ? first.angle_speed_rad_per_s : first.state.joint.contraction_speed_per_s);
-    if (speed <= (pair ? still_rad_per_s : still_per_s)) continue;
-    warnings.push_back(data::warning_of_run(
-        runs[i].id,
-        fmt::format("is to begin at rest, and after settling_time ({:.4g} s) still moves at {:.2g} {}: a "
-                    "longer settling_time of the rig{}",
-                    dataset.rig.settling_time_s, speed, pair ? "rad/s" : "of its length a second",
-                    pair || points ? "" : ", or start: moving")));
-  }
+/// What can hardly be; throws where it cannot.
+std::vector<data::Finding> asked_of(const domain::Dataset& dataset) {
+  std::vector<data::Finding> findings = data::implausible(dataset);
+  data::raise(dataset, findings);
+  return findings;
+}
+
+std::vector<std::string> in_words(const domain::Dataset& dataset,
+                                  const std::vector<data::Finding>& findings) {
+  std::vector<std::string> warnings = dataset.remarks;
+  for (const data::Finding& finding : findings) warnings.push_back(data::text_of(dataset, finding));
   return warnings;
 }
 
 }  // namespace
 
 std::vector<std::string> asked_first(const domain::Dataset& dataset) {
-  const std::vector<data::Finding> findings = data::implausible(dataset);
-  data::raise(dataset, findings);
-  std::vector<std::string> warnings = dataset.remarks;
-  for (const data::Finding& finding : findings) warnings.push_back(data::text_of(dataset, finding));
-  return warnings;
+  return in_words(dataset, asked_of(dataset));
 }
 
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs) {
   std::vector<std::string> warnings = asked_first(dataset);
+  const bool looks =
+      dataset.own_clock && !run::interrupted() && input::why_unfit(domain::Purpose::judging, dataset).empty();
   std::vector<data::Finding> looked;
-  if (!dataset.own_clock)
-    looked = data::examine(dataset, run::expected_of(dataset, runs)).findings;
-  else if (input::why_unfit(domain::Purpose::judging, dataset).empty() && !run::interrupted())
+  if (looks)
     looked = run::look(dataset).findings;
+  else if (!dataset.own_clock)
+    looked = data::examine(dataset, run::expected_of(dataset, runs)).findings;
   data::raise(dataset, looked);
+  if (!looks) run::add_not_at_rest(dataset, runs, looked);
   for (const auto& finding : looked)
     if (!data::only_limits_diagnosis(finding)) warnings.push_back(data::text_of(dataset, finding));
-  for (std::string& warning : not_at_rest(dataset, runs)) warnings.push_back(std::move(warning));
   for (const auto& run : runs)
     for (const auto& doubt : run::doubts(run.recording))
       warnings.push_back(data::warning_of_run(run.id, doubt));
@@ -131,13 +119,15 @@ void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data
 std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses,
                                  const std::function<void(const std::vector<std::string>&)>& say) {
   add_hypotheses(hypotheses, data);
-  std::vector<std::string> warnings = asked_first(data);
+  std::vector<data::Finding> asked = asked_of(data);
+  std::vector<std::string> warnings = in_words(data, asked);
   input::require_judged(data, "diagnose");
   for (const data::Finding& finding : data::mend_at_stamps(data))
     warnings.push_back(data::text_of(data, finding).append(data::consequence_of(finding)));
   data = data::with_rows(std::move(data));
   const std::vector<data::Finding> looked = run::look(data).findings;
-  data::raise(data, looked);
+  asked.insert(asked.end(), looked.begin(), looked.end());
+  data::raise_for_diagnosis(data, asked);
   std::vector<std::string> at_once = warnings;  // the diagnosis says the rest of it again, with what it did
   for (const data::Finding& finding : looked) {
     at_once.push_back(data::text_of(data, finding));
@@ -151,9 +141,13 @@ Found find(const domain::Dataset& data, const Diagnosing& how, const run::Progre
   std::size_t steps = 0;
   const identify::Settings settings{.threads = how.threads,
                                     .trying = [&](const std::string& what) { progress(what, ++steps, 0); },
-                                    .time_limit_s = how.time_limit_s};
-  Found found{
-      identify::diagnosis_of(identify::identify(data, settings), settings, {how.seed, how.warnings}), {}, {}};
+                                    .time_limit_s = how.time_limit_s,
+                                    .known = how.known};
+  identify::Identified identified = identify::identify(data, settings);
+  Found found{identify::diagnosis_of(identified, settings, {how.seed, how.warnings}),
+              {},
+              {},
+              std::move(identified.simulated)};
   found.nominal = run::replay(data, how.threads, progress);
   domain::Dataset mended = data;
   mended.rig = found.diagnosis.corrected;

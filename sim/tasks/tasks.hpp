@@ -9,6 +9,7 @@
 
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/domain/dataset.hpp>
+#include <sim/identify/simulator.hpp>
 #include <sim/run/replay.hpp>
 
 namespace mckibben::tasks {
@@ -47,6 +48,7 @@ struct Diagnosing {
   std::uint64_t seed = 1;
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< of the search, which it only stops
   std::vector<std::string> warnings{};                            ///< that `prepare` gave
+  const identify::Simulated* known = nullptr;                     ///< of a search that was ended
 };
 
 /// What is found, and the runs replayed on the data set's rig and on
@@ -54,6 +56,7 @@ struct Diagnosing {
 struct Found {
   diagnose::Diagnosis diagnosis;
   std::vector<run::ReplayedRun> nominal, corrected;
+  identify::Simulated simulated;  ///< of a search that was ended, to go on from
 };
 /// Progress counts steps and has no total. Throws run::Interrupted where the user stops it before there is
 /// anything to hand over, or again after that; data::UnfitData; engine::NumericalFailure.

@@ -24,6 +24,22 @@ std::string_view name_of(Bench bench) {
   return bench == Bench::thesis ? "" : bench == Bench::other_size ? "size" : "wide";
 }
 
+std::string_view name_of(OtherLaw law) {
+  switch (law) {
+    case OtherLaw::none:
+      return "";
+    case OtherLaw::stick_slip:
+      return ", stick and slip";
+    case OtherLaw::area_friction:
+      return ", friction by area";
+    case OtherLaw::braid:
+      return ", another braid";
+    case OtherLaw::valve:
+      return ", valve of second order";
+  }
+  return "";
+}
+
 std::vector<DataSet> all_sets(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
   std::vector<DataSet> sets;
   for (std::size_t kind = 0; kind < kinds(); ++kind) {
@@ -65,6 +81,34 @@ std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds, const s
       if (title.starts_with(wanted)) sets.push_back(set);
     }
   }
+  return sets;
+}
+
+std::vector<DataSet> off_sheet(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
+  std::vector<DataSet> sets;
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed)
+    for (std::size_t kind = 0; kind < kinds(); ++kind) {
+      if (!title(kind).starts_with(wanted)) continue;
+      Surroundings surroundings = few_runs(Bench::other_size, kind + seed);
+      surroundings.off_sheet = (kind / 2 + seed) % 2 == 0 ? OffSheet::each_by_one : OffSheet::two_by_three;
+      sets.push_back({kind, seed, surroundings});
+    }
+  return sets;
+}
+
+std::vector<DataSet> other_laws(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
+  std::vector<DataSet> sets;
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed)
+    for (const char* hidden : {"nothing, white", "muscle_leak large", "bladder_elasticity large",
+                               "valve_dead_band large", "encoder_backlash large"})
+      for (const OtherLaw law :
+           {OtherLaw::stick_slip, OtherLaw::area_friction, OtherLaw::braid, OtherLaw::valve}) {
+        if (!std::string_view(hidden).starts_with(wanted)) continue;
+        const std::size_t kind = kind_titled(hidden);
+        Surroundings surroundings = few_runs(benches.at(seed % 2), kind + seed);
+        surroundings.other_law = law;
+        sets.push_back({kind, seed, surroundings});
+      }
   return sets;
 }
 

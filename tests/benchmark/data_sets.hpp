@@ -18,6 +18,7 @@ struct DataSet {
 };
 
 std::string_view name_of(Bench bench);
+std::string_view name_of(OtherLaw law);
 
 /// What has a title that begins so, on one bench after another, as far off its data sheet as this says of
 /// itself.
@@ -28,6 +29,12 @@ std::vector<DataSet> nulls(std::uint64_t first, std::uint64_t seeds, const std::
 
 /// Small effects made weaker or twice as large, and what has no name, in few runs.
 std::vector<DataSet> weak_ones(std::uint64_t first, std::uint64_t seeds, const std::string& wanted);
+
+/// Every kind on rigs of other sizes that are far off their sheets.
+std::vector<DataSet> off_sheet(std::uint64_t first, std::uint64_t seeds, const std::string& wanted);
+
+/// Nothing or a plain effect, beside each law that no catalogue has.
+std::vector<DataSet> other_laws(std::uint64_t first, std::uint64_t seeds, const std::string& wanted);
 
 /// So many data sets in which names may be open: little of an effect that has relatives (docs/effects.md), in
 /// three or four short sines.

@@ -1,8 +1,13 @@
 // Scores the diagnosis on data with something hidden in it.
 //
+//   benchmark_diagnosis -v ...                   any of these, each step of the search as well
 //   benchmark_diagnosis [SEED [SEEDS [TITLE]]]   seeds SEED to SEED + SEEDS - 1 (default 101, 3 of them), of
 //                                                what has a title that begins so (default: all)
 //   benchmark_diagnosis --nulls [SEED [SEEDS [TITLE]]]   the same where nothing is hidden, on four benches
+//   benchmark_diagnosis --off-sheet [SEED [SEEDS [TITLE]]]   every kind on rigs of other sizes whose numbers
+//                                                are each one deviation off, or two of them three
+//   benchmark_diagnosis --other-laws [SEED [SEEDS [TITLE]]]   nothing or a plain effect beside a law that no
+//                                                catalogue has: of friction, of the braid, of the valve
 //   benchmark_diagnosis --weak [SEED [SEEDS [TITLE]]]   effects of 10 to 200 % of a small size, other numbers
 //                                                and laws of no catalogue in four to nine short runs: how
 //                                                often a name is right that is given with such evidence
@@ -70,26 +75,44 @@ std::string left_in_words(const diagnose::Diagnosis& found) {
   return words;
 }
 
+/// The rig's numbers as told beside the true ones, and what was told of each candidate.
+void print_numbers(const diagnose::Hidden& hidden, const diagnose::Diagnosis& found) {
+  for (const auto& one : found.recalibrated)
+    for (const auto& number : hidden.numbers)  // half a 95 % interval is 1
+      if (number.path == one.fitted.name)
+        fmt::print("    {} {:.6g}, truly {:.6g}: off by {:.2f} of its half interval, {:.2f} deviations\n",
+                   one.fitted.name, one.fitted.value, number.value,
+                   2.0 * (one.fitted.value - number.value) / (one.fitted.high - one.fitted.low),
+                   one.deviations);
+  for (const auto& one : found.ranking)
+    fmt::print("    {} {} {:.1f} {:.1f}: {}\n", one.name, one.variant, one.score, one.fall, one.outcome);
+  fmt::print("    {}\n", found.because);
+}
+
+bool verbose = false;
+
 /// Diagnoses one data set.
 std::string diagnose_one(const DataSet& set) {
   const auto hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
   const auto start = std::chrono::steady_clock::now();
-  const diagnose::Asked asked{.threads = cluster::crew().threads, .seed = set.seed};
+  diagnose::Asked asked{.threads = cluster::crew().threads, .seed = set.seed};
+  if (verbose) asked.say = [](const std::string& what) { fmt::print("{}\n", what); };
   const auto found = diagnose::whole_diagnosis(hidden.data, asked);
+  if (verbose) print_numbers(hidden, found);
   const diagnose::Answer answer(hidden, found);
   Outcome outcome(hidden, found, answer);
   outcome.took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::string advised;
   if (set.advised) outcome.advice = diagnose::follow(hidden, found, asked, advised);
-  const bool right = found.verdict == hidden.verdict && answer.right;
   return bytes_of(
       outcome,
       fmt::format(
-          "{:<48} {:>4} {:<4} {:<16} {:<40} {:.2e} > {:.2e} > {:.2e} {:5.1f} s{}{}\n{}", hidden.title,
-          set.seed, name_of(set.surroundings.bench), name_of(found.verdict), answer.said,
-          found.gap.nominal_rmse, found.gap.recalibrated_rmse, found.gap.corrected_rmse, outcome.took_s,
+          "{:<48} {:>4} {:<4} {:<16} {:<40} {:.2e} > {:.2e} > {:.2e} {:5.1f} s{}{}\n{}",
+          hidden.title + std::string(name_of(set.surroundings.other_law)), set.seed,
+          name_of(set.surroundings.bench), name_of(found.verdict), answer.said, found.gap.nominal_rmse,
+          found.gap.recalibrated_rmse, found.gap.corrected_rmse, outcome.took_s,
           evidence_in_words(outcome) + (found.verdict == Verdict::unknown_effect ? left_in_words(found) : ""),
-          right                                      ? std::string()
+          answer.well                                ? std::string()
           : answer.within && !hidden.effects.empty() ? "  in the set"
                                                      : fmt::format("  MISSED: {}", found.because),
           advised));
@@ -151,7 +174,8 @@ void score_corrupted(const std::vector<std::string>& words) {
   diagnose::score_corrupted(seed, only);
 }
 
-constexpr std::array suites{"", "--nulls", "--weak", "--advice", "--pairs", "--corrupted"};
+constexpr std::array suites{"",       "--nulls",  "--off-sheet", "--other-laws",
+                            "--weak", "--advice", "--pairs",     "--corrupted"};
 
 bool is_number(const std::string& word) {
   return !word.empty() && word.find_first_not_of("0123456789") == std::string::npos;
@@ -170,6 +194,7 @@ bool are_understood(const std::string& suite, const std::vector<std::string>& wo
 
 int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
+  verbose = std::erase(words, "-v") > 0;
   if (!words.empty() && words.front() == "--corrupted") {
     if (cluster::crew().leads()) score_corrupted({words.begin() + 1, words.end()});
     return 0;
@@ -192,10 +217,12 @@ int main(int argc, char** argv) {
   }
   try {
     const std::string wanted = words.size() > 2 ? words[2] : "";
-    score_all(suite == "--nulls"    ? diagnose::nulls(first, seeds, wanted)
-              : suite == "--weak"   ? diagnose::weak_ones(first, seeds, wanted)
-              : suite == "--advice" ? diagnose::open_ones(first, number(1, 60))
-                                    : diagnose::all_sets(first, seeds, wanted),
+    score_all(suite == "--nulls"        ? diagnose::nulls(first, seeds, wanted)
+              : suite == "--off-sheet"  ? diagnose::off_sheet(first, seeds, wanted)
+              : suite == "--other-laws" ? diagnose::other_laws(first, seeds, wanted)
+              : suite == "--weak"       ? diagnose::weak_ones(first, seeds, wanted)
+              : suite == "--advice"     ? diagnose::open_ones(first, number(1, 60))
+                                        : diagnose::all_sets(first, seeds, wanted),
               all);
   } catch (const output::CannotWrite& error) {
     fmt::print(stderr, "mckibben: {}\n", error.what());

@@ -18,6 +18,8 @@
 #include <sim/diagnose/priors.hpp>
 #include <sim/run/simulate.hpp>
 
+#include "own_law.hpp"
+
 namespace mckibben::diagnose {
 namespace {
 
@@ -240,10 +242,44 @@ plant::Rig described(const Surroundings& surroundings, Dice& dice) {
   return rig;
 }
 
-/// By how many of its deviations each number of a rig is off.
-double off_by(const Kind& kind, const Surroundings& surroundings) {
-  if (surroundings.bench == Bench::badly_known) return 1.0;
-  return surroundings.off_by.value_or(kind.verdict == Verdict::nothing_missing ? 0.0 : 0.1);
+/// By how many of its deviations each of so many numbers of a rig is off.
+std::vector<double> off_by(const Kind& kind, const Surroundings& surroundings, std::size_t count,
+                           Dice& dice) {
+  const double by = surroundings.bench == Bench::badly_known
+                        ? 1.0
+                        : surroundings.off_by.value_or(kind.verdict == Verdict::nothing_missing ? 0.0 : 0.1);
+  std::vector<double> off;
+  while (off.size() < count) off.push_back(by * dice.normal());
+  if (surroundings.off_sheet == OffSheet::each_by_one)
+    for (double& one : off) one = std::copysign(1.0, dice.normal());
+  if (surroundings.off_sheet == OffSheet::two_by_three)
+    for (int i = 0; i < 2; ++i)
+      off[static_cast<std::size_t>(dice.between(0.0, static_cast<double>(count)))] =
+          std::copysign(3.0, dice.normal());
+  return off;
+}
+
+/// Puts a law of no catalogue in the place of the rig's own.
+void put(OtherLaw law, plant::Rig& rig) {
+  switch (law) {
+    case OtherLaw::none:
+      return;
+    case OtherLaw::stick_slip:
+      rig.friction.memory = plant::FrictionMemory::coulomb;
+      return;
+    case OtherLaw::area_friction:
+      rig.friction.law = plant::FrictionLaw::area;
+      rig.friction.adhesion_Pa = 1000.0;
+      return;
+    case OtherLaw::braid:  // 3 % at an eighth of its length, nothing at a quarter
+      rig.effects.laws.list = {own_law(plant::LawTarget::force, "share * F_braid * 16 * e * (0.25 - e)",
+                                       {{"share", law::ratio, 0.03}})};
+      return;
+    case OtherLaw::valve:
+      rig.effects.laws.list = {own_law(plant::LawTarget::command, "p - command",
+                                       {{"T", law::second, 0.02}, {"damping", law::ratio, 0.5}},
+                                       {{"p", "q"}, {"q", "(command - p) / T^2 - 2 * damping * q / T"}})};
+  }
 }
 
 /// A rig that has it; notes in `hidden` what was planted.
@@ -253,9 +289,11 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& su
   hidden.data.rig = nominal;
   plant::Rig truth = nominal;
   // Rigs are off their data sheets; where nothing is to be found, as told only.
-  for (const Parameter& p : nominal_parameters(nominal, nominal.spreads))
-    *find(truth, p.path).value =
-        std::clamp(p.origin + off_by(kind, surroundings) * p.scale * dice.normal(), p.lowest, p.highest);
+  const std::vector<Parameter> known = nominal_parameters(nominal, nominal.spreads);
+  const std::vector<double> off = off_by(kind, surroundings, known.size(), dice);
+  for (std::size_t i = 0; i < known.size(); ++i)
+    *find(truth, known[i].path).value =
+        std::clamp(known[i].origin + off[i] * known[i].scale, known[i].lowest, known[i].highest);
   for (const Planted& planted : kind.plan) {
     const Found found = find(truth, planted.path);
     const bool number = !planted.path.starts_with("effects.");
@@ -287,6 +325,7 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& su
   }
   truth.effects.get<plant::GuideFriction>().slip_speed_m_per_s = 1e-3 * dice.between(0.6, 1.5);
   truth.effects.get<plant::ResidualForce>().terms = kind.law;
+  put(surroundings.other_law, truth);
   if (kind.gauge) truth.sensors.put(plant::gauge());
   return truth;
 }
@@ -355,6 +394,7 @@ Hidden hide(std::size_t index, std::uint64_t seed, const Surroundings& surroundi
                 .effects = kind.effects,
                 .noise = kind.noise,
                 .seed = seed};
+  hidden.other_law = surroundings.other_law != OtherLaw::none;
   if (hidden.noise.encoder_jitter == 0.0) hidden.noise.encoder_jitter = 5e-5;
   if (kind.gauge) hidden.noise.gauge_Pa = 400.0;
   hidden.rig = rig_with(kind, seed, surroundings, dice, hidden);

@@ -24,6 +24,7 @@ struct Hidden {
   std::string title;
   Verdict verdict = Verdict::missing_effect;
   std::vector<std::string> effects{};
+  bool other_law = false;          ///< beside them
   std::vector<Planted> truth{};    ///< of the effects
   std::vector<Planted> numbers{};  ///< of the rig, as it truly is
   domain::Dataset data{};
@@ -36,8 +37,18 @@ struct Hidden {
 /// less well than a data sheet says, and say so.
 enum class Bench { thesis, other_size, badly_known };
 
+/// How far the rig's numbers are off their data sheet: by chance, as told; each by one deviation; or two of
+/// them by three, the others by a tenth or so.
+enum class OffSheet { by_chance, each_by_one, two_by_three };
+
+/// A law that no catalogue has, in the place of the rig's own: stick and slip without a bristle, friction by
+/// the area of contact (T 1.1), a braid that pulls otherwise as it shortens, a valve of second order.
+enum class OtherLaw { none, stick_slip, area_friction, braid, valve };
+
 struct Surroundings {
   Bench bench = Bench::thesis;
+  OffSheet off_sheet = OffSheet::by_chance;
+  OtherLaw other_law = OtherLaw::none;
   /// By how many of their deviations its numbers are off; unless told, a tenth where something is hidden.
   /// Those of a rig that is badly known are always as far off as they are known.
   std::optional<double> off_by{};

@@ -1,8 +1,6 @@
 // Identifies data sets by one likelihood (sim/identify) and says what it found, a line each.
 //
 //   benchmark_identify [-v] DATASET...                         data sets of files; -v: each step
-//   benchmark_identify [-v] --own FIRST SEEDS [TITLE]               of the suite (data_sets.hpp), what has a
-//                                title that begins so
 //   benchmark_identify [-v] --descents FIRST SEEDS STARTS [TITLE]   of the suite (data_sets.hpp), what has a
 //                                title that begins so: do descents from random starts end in the same place?
 #include <cstdlib>
@@ -35,8 +33,7 @@ double cpu_s() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-void identify_one(const std::string& title, domain::Dataset data, bool verbose,
-                  const diagnose::Hidden* hidden = nullptr) {
+void identify_one(const std::string& title, domain::Dataset data, bool verbose) {
   const double begin_s = cpu_s();
   data::mend_at_stamps(data);
   data = data::with_rows(std::move(data));
@@ -78,11 +75,6 @@ void identify_one(const std::string& title, domain::Dataset data, bool verbose,
     for (const auto& one : diagnosis.recalibrated) {
       fmt::print("    {:.3f} ", one.deviations);
       print(one.fitted);
-      if (hidden == nullptr) continue;
-      for (const auto& number : hidden->numbers)  // half a 95 % interval is 1
-        if (number.path == one.fitted.name)
-          fmt::print("      true {:.6g}: off by {:.2f} of its half interval\n", number.value,
-                     2.0 * (one.fitted.value - number.value) / (one.fitted.high - one.fitted.low));
     }
     for (const auto& one : diagnosis.ranking)
       fmt::print("    {} {} {:.1f} {:.1f}: {}\n", one.name, one.variant, one.score, one.fall, one.outcome);
@@ -170,15 +162,6 @@ int main(int argc, char** argv) {
                  seeds = std::strtoull(argv[i + 2], nullptr, 10);
       descend_all(diagnose::all_sets(first, seeds, i + 4 < argc ? argv[i + 4] : ""),
                   std::strtoull(argv[i + 3], nullptr, 10), verbose);
-      return 0;
-    }
-    if (argv[i] == std::string_view("--own") && i + 2 < argc) {
-      const auto first = std::strtoull(argv[i + 1], nullptr, 10),
-                 seeds = std::strtoull(argv[i + 2], nullptr, 10);
-      for (const diagnose::DataSet& set : diagnose::all_sets(first, seeds, i + 3 < argc ? argv[i + 3] : "")) {
-        const diagnose::Hidden hidden = diagnose::hide(set.kind, set.seed, set.surroundings);
-        identify_one(fmt::format("{} {}", hidden.title, set.seed), hidden.data, verbose, &hidden);
-      }
       return 0;
     }
     try {

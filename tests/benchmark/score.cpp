@@ -64,6 +64,10 @@ Answer::Answer(const Hidden& hidden, const Diagnosis& found) {
   }
   right = named == truth;
   within = holds(declared, truth);
+  const bool no_name = found.verdict == Verdict::nothing_missing || found.verdict == Verdict::recalibrate;
+  well =
+      right && (found.verdict == hidden.verdict || (hidden.verdict == Verdict::nothing_missing && no_name));
+  if (hidden.other_law) well = well || (found.verdict == Verdict::unknown_effect && holds(truth, named));
 }
 
 void Coverage::count(double truth, const FittedNumber& told) {
@@ -84,8 +88,10 @@ Outcome::Outcome(const Hidden& truth, const Diagnosis& diagnosis, const Answer& 
       effects(truth.effects.size()),
       right(answer.right),
       within(answer.within),
+      well(answer.well),
       wrong_name(!answer.named.empty() && !holds({truth.effects.begin(), truth.effects.end()}, answer.named)),
       closed(diagnosis.gap.closed >= 0.9),
+      other_law(truth.other_law),
       simpler(simpler_does_as_well(diagnosis)) {
   for (const auto& planted : truth.truth)
     for (const auto& effect : diagnosis.effects)
@@ -100,6 +106,14 @@ Outcome::Outcome(const Hidden& truth, const Diagnosis& diagnosis, const Answer& 
 
 void Score::count(const Outcome& outcome) {
   slowest_s_ = std::max(slowest_s_, outcome.took_s);
+  wrong_names_.count(outcome.wrong_name);
+  well_.count(outcome.well);
+  // What a law of no catalogue does to them is not theirs.
+  if (outcome.right && outcome.hidden != Verdict::unknown_effect) add(numbers_, outcome.numbers);
+  if (outcome.other_law) {
+    other_laws_.count(outcome.well);
+    return;
+  }
   if (outcome.hidden == Verdict::missing_effect) {
     const bool right = outcome.right && outcome.found == Verdict::missing_effect;
     (outcome.effects > 2 ? triples_ : few_).count(right);
@@ -107,13 +121,10 @@ void Score::count(const Outcome& outcome) {
     if (outcome.right) closed_.count(outcome.closed);
     if (outcome.right) add(sizes_, outcome.sizes);
   }
-  // What a law of no catalogue does to them is not theirs.
-  if (outcome.right && outcome.hidden != Verdict::unknown_effect) add(numbers_, outcome.numbers);
   if (outcome.hidden == Verdict::nothing_missing)
     false_alarms_.count(outcome.found == Verdict::missing_effect || outcome.found == Verdict::unknown_effect);
   if (outcome.hidden == Verdict::recalibrate) recalibrated_.count(outcome.found == Verdict::recalibrate);
   if (outcome.hidden == Verdict::unknown_effect) unknown_.count(outcome.found == Verdict::unknown_effect);
-  wrong_names_.count(outcome.wrong_name);
   simpler_.count(outcome.simpler);
   advice_.count(outcome.advice);
   for (std::size_t i = 0; i < outcome.names; ++i) given_.push_back(outcome.given.at(i));
@@ -128,7 +139,9 @@ void Score::print() const {
   numbers_.print("the rig's numbers: true one in its interval");
   recalibrated_.print("changed nominal parameter: recalibrate");
   unknown_.print("unknown laws recognised");
+  other_laws_.print("a law of no catalogue: name, or something else");
   false_alarms_.print("nothing hidden: false alarms");
+  well_.print("right name or verdict (all data sets)");
   wrong_names_.print("wrong names (all data sets)");
   simpler_.print("a simpler explanation does as well");
   print_reliability();

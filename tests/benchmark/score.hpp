@@ -21,7 +21,8 @@ std::string_view name_of(Verdict verdict);
 struct Answer {
   std::set<std::string> named, declared;
   std::string said;
-  bool right = false, within = false;
+  bool right = false, within = false;  ///< the names
+  bool well = false;  ///< they and the verdict; "something else" beside a law of no catalogue
 
   Answer(const Hidden& hidden, const Diagnosis& found);
 };
@@ -46,8 +47,9 @@ struct Given {
 struct Outcome {
   Verdict hidden{}, found{};
   std::size_t effects = 0;  ///< that were hidden
-  bool right = false, within = false, wrong_name = false, closed = false;
-  bool simpler = false;  ///< an explanation that is simpler does as well
+  bool right = false, within = false, well = false, wrong_name = false, closed = false;
+  bool other_law = false;  ///< is in the rig
+  bool simpler = false;    ///< an explanation that is simpler does as well
   Coverage sizes, numbers;
   std::array<Given, 4> given{};
   std::size_t names = 0;
@@ -66,8 +68,8 @@ class Score {
  private:
   void print_reliability() const;
 
-  Tally few_, triples_, in_set_, false_alarms_, unknown_, wrong_names_, sizes_, numbers_, closed_,
-      recalibrated_, simpler_;
+  Tally few_, triples_, in_set_, false_alarms_, unknown_, other_laws_, well_, wrong_names_, sizes_, numbers_,
+      closed_, recalibrated_, simpler_;
   std::vector<Given> given_;
   AdviceScore advice_;
   double slowest_s_ = 0.0;

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sim/cli/app.hpp>
@@ -21,10 +22,11 @@ using input::Json;
 constexpr const char* falls =
     "{muscle: {stop_stiffness: 1e5 N/m}, effects: {residual_law: {terms: [{of: m g, coefficient: -800 N}]}}}";
 
-/// Two runs in which nothing moves: enough to be read, too little for a diagnosis.
-void write_still_runs(const fs::path& folder) {
+/// Two runs of half a second: enough to be read, too little for a calibration.
+void write_short_runs(const fs::path& folder) {
   std::string table = "time_s,current_mA,contraction_ratio\n";
-  for (int k = 0; k < 40; ++k) table += std::to_string(0.012 * k) + ",4,0.01\n";
+  for (int k = 0; k < 40; ++k)
+    table += fmt::format("{:.3f},{:.1f},{:.4f}\n", 0.012 * k, 4 + 0.2 * k, 0.002 * k);
   fs::create_directory(folder);
   write_text(folder / "r1.csv", table);
   write_text(folder / "dataset.yaml",
@@ -54,10 +56,10 @@ class Contract : public testing::Test {
     write_text(s / "falling_rig.yaml",
                "schema: mckibben-rig/1\nmuscle: {stop_stiffness: 1e5 N/m}\n"
                "effects: {residual_law: {terms: [{of: m g, coefficient: -800 N}]}}\n");
-    write_still_runs(s / "still");
+    write_short_runs(s / "short");
     write_text(s / "heavy.yaml",
                "schema: mckibben-dataset/1\nrig: falling_rig.yaml\nruns:\n"
-               "  - {id: r1, file: still/r1.csv, load: 45 kg}\n");
+               "  - {id: r1, file: short/r1.csv, load: 45 kg}\n");
     write_text(s / "bench.yaml",
                "schema: mckibben-scenario/1\nloads: [11 kg]\nduration: 0.1 s\n"
                "rig: {base: thesis, settling_time: 0 s}\n"
@@ -86,13 +88,13 @@ constexpr Case cases[] = {
     {0, "dataset campaign.yaml --out r2"},
     {0, "calibrate data --out r3"},
     {0, "map cal/calibration.yaml --load '14 kg' --ratios 2 --speeds 1 --out r5"},
-    {0, "replay still --out r6"},
-    {0, "diagnose still --out r7"},
-    {0, "import still/r1.csv --out r14"},
+    {0, "replay short --out r6"},
+    {0, "diagnose short --time-limit '1 us' --out r7"},
+    {0, "import short/r1.csv --out r14"},
     {0, "fmu thesis --out r15.fmu"},
     {0, "control bench.yaml --most-missed 1000 --out r16"},
     {0, "diff a b"},
-    {0, "check quick.yaml campaign.yaml still"},
+    {0, "check quick.yaml campaign.yaml short"},
     {0, "effects"},
     {0, "schema rig"},
     {0, "init started.yaml"},
@@ -108,7 +110,7 @@ constexpr Case cases[] = {
     {64, "map cal/calibration.yaml --load 14"},
     {64, "map cal/calibration.yaml --load '14 m'"},
     {64, "replay --rig thesis"},
-    {64, "diagnose still --seed 1.5"},
+    {64, "diagnose short --seed 1.5"},
     {64, "diff a"},
     {64, "diff a b --tolerance much"},
     {64, "check"},
@@ -124,13 +126,13 @@ constexpr Case cases[] = {
     {65, "run bad.yaml"},
     {65, "dataset bad.yaml"},
     {65, "calibrate quick.yaml"},
-    {65, "calibrate still"},
+    {65, "calibrate short"},
     {65, "map quick.yaml"},
     {65, "map cal/calibration.yaml --load '45 kg'"},
     {65, "replay quick.yaml"},
     {65, "fmu quick.yaml"},
     {65, "control quick.yaml"},
-    {65, "replay still --rig quick.yaml"},
+    {65, "replay short --rig quick.yaml"},
     {65, "diagnose quick.yaml"},
     {65, "diff a file_with_wrong_json"},
     {65, "check bad.yaml"},
@@ -143,7 +145,7 @@ constexpr Case cases[] = {
     {66, "calibrate nowhere"},
     {66, "map nowhere.yaml"},
     {66, "replay nowhere"},
-    {66, "replay still --rig nowhere.yaml"},
+    {66, "replay short --rig nowhere.yaml"},
     {66, "diagnose nowhere"},
     {66, "diff a nowhere"},
     {66, "check nowhere.yaml"},
@@ -158,9 +160,9 @@ constexpr Case cases[] = {
     {74, "dataset campaign.yaml --out file"},
     {74, "calibrate data --out file/below"},
     {74, "map cal/calibration.yaml --out cal"},
-    {74, "replay still --out still"},
-    {74, "diagnose still --out file"},
-    {74, "diagnose still --plan file --out r14"},
+    {74, "replay short --out short"},
+    {74, "diagnose short --out file"},
+    {74, "diagnose short --plan file --out r14"},
     {74, "diff a b --out a"},
     {74, "check quick.yaml --out file"},
     {74, "effects --out file"},
@@ -218,9 +220,10 @@ TEST_F(Contract, ExitStatusesAndJsonOfEveryVerb) {
 }
 
 TEST_F(Contract, WhatCannotBePrintedIs74) {
-  for (const char* arguments : {"run quick.yaml", "replay still", "diagnose still", "diff a b",
-                                "check quick.yaml", "check quick.yaml --json", "effects", "schema",
-                                "schema --format markdown", "schema rig --format yaml", "init full.yaml"})
+  for (const char* arguments :
+       {"run quick.yaml", "replay short", "diagnose short --time-limit '1 us'", "diff a b",
+        "check quick.yaml", "check quick.yaml --json", "effects", "schema", "schema --format markdown",
+        "schema rig --format yaml", "init full.yaml"})
     EXPECT_EQ(run(std::string(arguments) + " > /dev/full; exit $?; true").status, 74) << arguments;
 }
 

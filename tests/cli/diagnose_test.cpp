@@ -4,9 +4,10 @@
 #include <sstream>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <sim/input/json.hpp>
+#include <sim/input/fields_json.hpp>
 
 #include "program.hpp"
 
@@ -28,17 +29,18 @@ TEST(Diagnose, RefusesWhatIsNotADataSet) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "found"));
 }
 
-/// One still run of half a second.
-std::string still() {
+/// One run of half a second.
+std::string rise() {
   std::string table = "time_s,current_mA,contraction_ratio\n";
-  for (int k = 0; k < 40; ++k) table += std::to_string(0.012 * k) + ",4,0.01\n";
+  for (int k = 0; k < 40; ++k)
+    table += fmt::format("{:.3f},{:.1f},{:.4f}\n", 0.012 * k, 4 + 0.2 * k, 0.002 * k);
   return table;
 }
 
 TEST(Diagnose, WritesOverNothingThatItDidNotMake) {
   const Scratch scratch;
   std::filesystem::create_directory(scratch / "data");
-  write_text(scratch / "data/r01.csv", still());
+  write_text(scratch / "data/r01.csv", rise());
   const std::string data_set =
       "schema: mckibben-dataset/1\nruns:\n  - {id: r01, file: r01.csv, load: 11.138 kg}\n";
   write_text(scratch / "data/dataset.yaml", data_set);

@@ -146,5 +146,17 @@ TEST_F(Given, ATorqueFromOutsideTurnsAPairAsMuscle1Does) {
   EXPECT_NEAR(0.03 * (last("tension_1_N", "by1.5") - last("tension_2_N", "by1.5")) + 1.5, weight_N_m, 1e-2);
 }
 
+// 204 ms times 0.001 is 0.20400000000000001 s.
+TEST_F(Given, StampsInMillisecondsAreWrittenAsTheyAre) {
+  std::string text = "t,I\n";
+  for (int k = 0; k <= 60; ++k) text += fmt::format("{},{}\n", 34 * k, 12.0);
+  write_text(scratch / "a.csv", text);
+  const Said said = replay(
+      "thesis", "columns:\n  time: {column: t, unit: ms}\n  current: {column: I, unit: mA}\nstart: settled\n",
+      "file: a.csv, load: 5 kg");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_TRUE(holds(read_text(scratch / "out/r1.csv"), "\n0.204,"));
+}
+
 }  // namespace
 }  // namespace mckibben::cli

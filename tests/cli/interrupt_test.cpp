@@ -152,6 +152,30 @@ TEST_F(Interrupt, OfASearchKeepsWhatWasFound) {
   EXPECT_FALSE(exists("out/diagnose-data"));
 }
 
+TEST_F(Interrupt, ASearchGoesOnFromWhereItWasEnded) {
+  write_leaking(scratch);
+  ASSERT_EQ(mckibben("dataset leak.yaml --out data", scratch).status, 0);
+  EXPECT_TRUE(holds(mckibben("diagnose data --resume data", scratch).err, "data/search.bin: no such file"));
+  ASSERT_EQ(stop("diagnose data --threads 1", "looking for what would explain more, step").status, 130);
+  ASSERT_EQ(mckibben("diagnose data --out at_once", scratch).status, 0);
+  const Said said = mckibben("diagnose data --resume out/diagnose-data.interrupted --out went_on", scratch);
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(read_text(scratch / "went_on/diagnosis.json"), read_text(scratch / "at_once/diagnosis.json"));
+  EXPECT_FALSE(exists("went_on/search.bin"));  // it was through
+
+  const fs::path kept = scratch / "out/diagnose-data.interrupted/search.bin";
+  const std::string bytes = read_text(kept);
+  const char* again = "diagnose data --resume out/diagnose-data.interrupted";
+  write_text(kept, bytes.substr(0, bytes.size() - 9));
+  EXPECT_TRUE(holds(mckibben(again, scratch).err, "search.bin: error: the file is not whole"));
+  write_text(kept, "nonsense");
+  EXPECT_TRUE(holds(mckibben(again, scratch).err, "this is no search that was kept"));
+  write_text(kept, bytes);
+  write_text(scratch / "wide.yaml", "schema: mckibben-rig/1\nmuscle: {rest_radius: 8 mm}\n");
+  EXPECT_TRUE(holds(mckibben(std::string(again) + " --rig wide.yaml", scratch).err,
+                    "on other data, or on another rig"));
+}
+
 TEST_F(Interrupt, ATimeLimitEndsASearchWithWhatIsKnown) {
   write_leaking(scratch);
   ASSERT_EQ(mckibben("dataset leak.yaml --out data", scratch).status, 0);
@@ -162,6 +186,8 @@ TEST_F(Interrupt, ATimeLimitEndsASearchWithWhatIsKnown) {
   EXPECT_EQ(document.at("search").at("ended"), "by_time");
   EXPECT_EQ(document.at("search").at("not_done"), Json({"the rig's parameters", "effects and bench faults",
                                                         "general terms, for what is outside the catalogue"}));
+  EXPECT_TRUE(holds(mckibben("diagnose data --time-limit '1 us' --out d", scratch).out,
+                    "mckibben diagnose data --resume d"));
   EXPECT_EQ(mckibben("diagnose data --time-limit 0", scratch).status, 64);
   EXPECT_EQ(mckibben("diagnose data --time-limit '5 kg'", scratch).status, 64);
 }

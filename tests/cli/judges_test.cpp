@@ -37,12 +37,16 @@ struct Spoilt {
   const char* time_unit = "s";
   std::vector<int> files{1, 2, 3};
   std::size_t most_rows = 1000, gap = 0;
+  bool unusable = false;  ///< diagnose alone refuses
+  const char* rig = "";   ///< a line of its file
 };
 
 const auto reads_half = [](Row& row, int, std::size_t) { row.ratio *= 0.5; };
 const auto in_psi = [](Row& row, int, std::size_t) { row.pressure_bar *= 14.503774; };
 const auto falls = [](Row& row, int, std::size_t) { row.ratio *= -1.0; };
 const auto dead = [](Row& row, int run, std::size_t) { row.ratio = run == 2 ? 0.05 : row.ratio; };
+const auto all_dead = [](Row& row, int, std::size_t) { row.ratio = 0.05; };
+const auto from_two_bar = [](Row& row, int, std::size_t) { row.pressure_bar += 2.0; };
 const auto coarse = [](Row& row, int, std::size_t) { row.ratio = std::round(row.ratio * 100.0) / 100.0; };
 const auto absolute = [](Row& row, int, std::size_t) { row.pressure_bar += 1.01325; };
 const auto absolute_from_rest = [](Row& row, int, std::size_t) { row.pressure_bar += 1.01325 - 0.5; };
@@ -55,6 +59,29 @@ const Spoilt spoilt[] = {
     {"nothing_with_stamps", {}, false, true},
     {"a_dead_reading", {"run m2", "contraction never moves", "columns: {contraction:"}, false, true, dead},
     {"a_dead_reading_in_ticks", {"run m2", "contraction never moves"}, false, false, dead},
+    {"no_reading_at_all",
+     {"contraction never moves", "columns: {contraction:"},
+     false,
+     true,
+     all_dead,
+     {11.138, 16.138, 23.406},
+     "s",
+     {1, 2, 3},
+     1000,
+     0,
+     true},
+    {"swings_when_it_should_rest",
+     {"still moves at", "a longer settling_time of the rig, or start: moving"},
+     false,
+     true,
+     from_two_bar,
+     {11.138, 16.138, 23.406},
+     "s",
+     {1, 2, 3},
+     1000,
+     0,
+     false,
+     "settling_time: 0.036 s\n"},
     {"one_file_under_two_names",
      {"holds the same rows as run m1", "name its own file"},
      false,
@@ -94,6 +121,11 @@ const Spoilt spoilt[] = {
     {"a_given_pressure_in_psi", {"as psi it would be", "unit: psi, as: input"}, true, true, in_psi},
     {"a_gauge_in_psi", {"this looks like psi, not bar", "unit: psi}"}, true, false, in_psi},
     {"an_absolute_given_pressure", {"is it absolute?", "zero: 1.01325"}, false, true, absolute_from_rest},
+    {"an_absolute_given_pressure_that_never_falls",
+     {"never comes below 1.", "is it absolute, or the muscle weaker", "zero: 1.01325"},
+     false,
+     true,
+     absolute},
     {"an_absolute_gauge", {"one atmosphere too high", "zero: 1.01"}, true, false, absolute},
     {"stamps_a_thousandth",
      {"is its time in s, not in ms?", "unit: s}"},
@@ -159,7 +191,10 @@ class Judges : public InAFolder, public testing::WithParamInterface<Spoilt> {
     write_text(scratch / "base.yaml", base);
     ASSERT_EQ(run("dataset base.yaml --out sound").status, 0);
     std::filesystem::create_directory(scratch / "d");
-    write_text(scratch / "d/rig.yaml", read_text(scratch / "sound/rig.yaml"));
+    std::string rig = read_text(scratch / "sound/rig.yaml");
+    if (const std::size_t at = rig.find("settling_time"); at != std::string::npos && *GetParam().rig != 0)
+      rig.erase(at, rig.find('\n', at) + 1 - at);
+    write_text(scratch / "d/rig.yaml", rig + GetParam().rig);
     std::string runs;
     for (int i = 1; i <= 3; ++i) {
       write_run(i);
@@ -199,7 +234,12 @@ TEST_P(Judges, SayTheSame) {
   for (const char* verb : {"check d", "replay d", "diagnose d --time-limit '1 ms'"}) {
     SCOPED_TRACE(verb);
     const Said said = run(verb);
-    EXPECT_EQ(said.status, GetParam().refused ? 65 : 0) << said.err;
+    const bool diagnoses = verb[0] == 'd';
+    EXPECT_EQ(said.status, GetParam().refused || (GetParam().unusable && diagnoses) ? 65 : 0) << said.err;
+    if (GetParam().unusable) {
+      const bool said_so = bool(holds(said.err + said.out, "no run is usable: mend what is said of each"));
+      EXPECT_EQ(said_so, verb[0] != 'r') << said.err;
+    }
     const std::string before = said.err.substr(0, said.err.find("trying"));
     for (const char* words : GetParam().words) EXPECT_TRUE(holds(before, words));
     if (GetParam().words.empty()) {

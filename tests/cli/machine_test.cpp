@@ -80,7 +80,7 @@ TEST_F(Machine, NamesThatAreTooLongAreSaid) {
   const std::string name(300, 'a');
   write_text(scratch / "dataset.yaml",
              "schema: mckibben-dataset/1\nruns: [{id: r, file: r.csv, load: 9 kg}]\n");
-  write_text(scratch / "r.csv", "time_s,current_mA,contraction_ratio\n0,4,0.01\n0.012,4,0.01\n");
+  write_text(scratch / "r.csv", "time_s,current_mA,contraction_ratio\n0,12,0.01\n0.012,12,0.02\n");
   const auto is_said = [&](const std::string& arguments, int status, const char* what) {
     const Said said = run(arguments);
     EXPECT_EQ(said.status, status) << arguments;

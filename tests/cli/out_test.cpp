@@ -37,7 +37,7 @@ TEST_F(Out, WhatIsReadIsNeverReplaced) {
   write_text(scratch / "f/rig.yaml", "schema: mckibben-rig/1\n");
   fs::create_symlink("f/rig.yaml", scratch / "link.yaml");
   write_text(scratch / "on_it.yaml", std::string(quick_scenario) + "rig: f/rig.yaml\n");
-  write_text(scratch / "r1.csv", "time_s,current_mA,contraction_ratio\n0,4,0.01\n0.012,4,0.01\n");
+  write_text(scratch / "r1.csv", "time_s,current_mA,contraction_ratio\n0,12,0.01\n0.012,12,0.02\n");
   write_text(scratch / "dataset.yaml",
              "schema: mckibben-dataset/1\nruns: [{id: r1, file: r1.csv, load: 11.138 kg}]\n");
   fs::copy_file(MCKIBBEN_SOURCE_DIR "/scenarios/thesis_calibration.yaml", scratch / "f/calibration.yaml");

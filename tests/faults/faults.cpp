@@ -13,9 +13,11 @@
 #include <climits>
 #include <csignal>
 #include <cstdarg>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -32,17 +34,26 @@ std::string setting(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-std::string path_of(int fd) {
-  char path[PATH_MAX];
-  const std::string link = "/proc/self/fd/" + std::to_string(fd);
-  const ssize_t length = readlink(link.c_str(), path, sizeof path);
-  return length < 0 ? "" : std::string(path, static_cast<std::size_t>(length));
-}
+/// Allocates nothing: the program's signal handlers write, too, maybe amid an allocation.
+class PathOf {
+ public:
+  explicit PathOf(int fd) {
+    char link[32];
+    std::snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
+    const ssize_t length = readlink(link, path_, sizeof path_);
+    length_ = length < 0 ? 0 : static_cast<std::size_t>(length);
+  }
+  operator std::string_view() const { return {path_, length_}; }
+
+ private:
+  char path_[PATH_MAX];
+  std::size_t length_;
+};
 
 std::string path_of(int folder, const char* name) {
   if (name[0] == '/') return name;
   char here[PATH_MAX];
-  const std::string from = folder == AT_FDCWD ? getcwd(here, sizeof here) : path_of(folder);
+  const std::string from(folder == AT_FDCWD ? getcwd(here, sizeof here) : std::string_view(PathOf(folder)));
   return from + "/" + name;
 }
 
@@ -55,10 +66,10 @@ void log(char letter) {
 }
 
 /// Whether an operation on this path is to fail, with errno set.
-bool fails(const std::string& path, char letter) {
+bool fails(std::string_view path, char letter) {
   static const std::string below = setting("FAULT_BELOW"), what = setting("FAULT_DO");
   static const long at = std::atol(setting("FAULT_AT").c_str());
-  if (below.empty() || !path.starts_with(below + "/")) return false;
+  if (below.empty() || !path.starts_with(below) || !path.substr(below.size()).starts_with('/')) return false;
   log(letter);
   static const bool goes_on = !setting("FAULT_ON").empty();
   const long number = ++count;
@@ -112,17 +123,17 @@ int open64(const char* path, int flags, ...) {
 }
 
 ssize_t write(int fd, const void* data, size_t size) {
-  if (fails(path_of(fd), 'w')) return -1;
+  if (fails(PathOf(fd), 'w')) return -1;
   return syscall(SYS_write, fd, data, size);
 }
 
 ssize_t pwrite(int fd, const void* data, size_t size, off_t at) {
-  if (fails(path_of(fd), 'w')) return -1;
+  if (fails(PathOf(fd), 'w')) return -1;
   return syscall(SYS_pwrite64, fd, data, size, at);
 }
 
 int close(int fd) {
-  const bool wrong = writes(fcntl(fd, F_GETFL)) && fails(path_of(fd), 'c');
+  const bool wrong = writes(fcntl(fd, F_GETFL)) && fails(PathOf(fd), 'c');
   const int error = errno, status = static_cast<int>(syscall(SYS_close, fd));
   if (!wrong) return status;
   errno = error;
@@ -130,11 +141,11 @@ int close(int fd) {
 }
 
 int fsync(int fd) {
-  return fails(path_of(fd), 's') ? -1 : call("fsync", fd);
+  return fails(PathOf(fd), 's') ? -1 : call("fsync", fd);
 }
 
 int ftruncate(int fd, off_t size) noexcept {
-  return fails(path_of(fd), 't') ? -1 : call("ftruncate", fd, size);
+  return fails(PathOf(fd), 't') ? -1 : call("ftruncate", fd, size);
 }
 
 int rename(const char* from, const char* to) noexcept {

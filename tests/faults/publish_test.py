@@ -44,7 +44,7 @@ loads: [5 kg, 9 kg, 13 kg, 17 kg]
 currents:
 """ + "".join(f"  - {{duration: {s} s, current: {{kind: sine_current, low: 4 mA, high: 20 mA, period: {s} s}}}}\n" for s in (2, 3, 4))
 ENSEMBLE = CAMPAIGN + "repeats: 70\nvary: {{muscle.rest_radius: normal 7.5 mm ± 1 %}}\n"
-# Two runs in which nothing moves: `diagnose` decides at once, and writes what it always writes.
+# `diagnose` is stopped at once, and writes what it always writes.
 DATASET = """schema: mckibben-dataset/1
 runs: [{{id: r{seed}, file: r.csv, load: 11.138 kg}}, {{id: s, file: r.csv, load: 16.138 kg}}]
 """
@@ -58,8 +58,9 @@ INPUT = {"run": SCENARIO, "dataset": CAMPAIGN, "ensemble": ENSEMBLE, "diagnose":
 COMMAND = "dataset" if VERB == "ensemble" else VERB
 FILE = {"import": "input.csv", "calibrate": "measured/dataset.yaml"}.get(VERB, "input.yaml")
 OPTIONS = {"import": [], "fmu": [], "map": ["--ratios", "2", "--speeds", "1", "--up", "--load", "16.138 kg"]}.get(
-    VERB, ["--threads", "1"])
-TABLE = "time_s,current_mA,contraction_ratio\n" + "".join(f"{0.012 * k:.3f},4,0.01\n" for k in range(40))
+    VERB, ["--threads", "1"]) + (["--time-limit", "1 us"] if VERB == "diagnose" else [])
+TABLE = "time_s,current_mA,contraction_ratio\n" + "".join(
+    f"{0.012 * k:.3f},{4 + 0.2 * k:.1f},{0.002 * k:.3f}\n" for k in range(40))
 ERRORS = [errno.ENOSPC, errno.EIO, errno.EDQUOT]
 
 

@@ -61,7 +61,7 @@ TEST(Likelihood, IsWhatItsFormulaSays) {
   const MatrixXd columns = MatrixXd::Random(rows.size(), 2) * rows.count;
   const Grams grams = error.grams(residual, columns);
 
-  // As an error begins: jitter 0.1 counts, model error a count for 1 s, wander 1e-3, a gain of hypot(1, 0.3).
+  // As an error begins: jitter 0.1 counts, model error a count for 1 s, wander 0.03, a gain of hypot(1, 0.3).
   const double q = rows.count, jitter = 0.1 * q, gain = std::hypot(1.0, 0.3);
   double staying = 0.0;
   for (int k = 1; k <= 5; ++k)
@@ -86,7 +86,7 @@ TEST(Likelihood, IsWhatItsFormulaSays) {
                                     (i == j ? q * q / 12.0 + jitter * jitter - staying : 0.0);
       }
     const auto knots = std::ssize(wander.knots[run]);
-    const MatrixXd moved = wander.columns(at, Eigen::seqN(0, knots)) * 1e-3;
+    const MatrixXd moved = wander.columns(at, Eigen::seqN(0, knots)) * 0.03;
     MatrixXd alike(knots, knots);
     for (Index i = 0; i < knots; ++i)
       for (Index j = 0; j < knots; ++j)

@@ -195,6 +195,7 @@ TEST_F(Recognise, CountersThatBeginAgainAreRuns) {
   const Recognised found = recognise({run("a.csv", "n,p_bar,x_mm\n", row)}, true);
   ASSERT_EQ(found.runs.size(), 2u);
   EXPECT_EQ(found.tables[1].part, std::vector<std::string>{"segment: 2"});
+  EXPECT_EQ(found.maps[0].remarks, std::vector<std::string>{"n begins again at row 101: 2 runs"});
   EXPECT_TRUE(found.maps[0].find("time")->factor->open());
   const Recognised rate = recognise({run("b.csv", "fps: 240\nn,p_bar,x_mm\n", row)}, true);
   EXPECT_NEAR(std::stod(rate.maps[0].find("time")->factor->value), 1.0 / 240.0, 1e-9);

@@ -1,11 +1,12 @@
 // States as bytes: the same values have the same bytes, whatever lay between members before.
-#include <cstring>
 #include <new>
 #include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include <plant/instruments.hpp>
+#include <plant/rig.hpp>
 #include <sim/ride/bytes.hpp>
 #include <sim/ride/rider.hpp>
 
@@ -17,16 +18,29 @@ struct Gap {
   double large;
 };
 
-/// Of a value that is made where these bytes were before.
+/// A value that is made where these bytes were before.
 template <class Value>
-std::string bytes_over(int before, void (*fill)(Value& value)) {
+struct Over {
+  explicit Over(unsigned char before) {
+    for (volatile unsigned char& byte : place) byte = before;  // else compilers leave it out
+    value = new (place) Value;
+  }
+
   alignas(Value) unsigned char place[sizeof(Value)];
-  std::memset(place, before, sizeof place);
-  auto* value = new (place) Value;
-  fill(*value);
+  Value* value;
+};
+
+std::string bytes_of(const auto& value) {
   BytesWriter write;
-  write(*value);
+  write(value);
   return write.closed();
+}
+
+template <class Value>
+std::string bytes_over(unsigned char before, void (*fill)(Value& value)) {
+  const Over<Value> made(before);
+  fill(*made.value);
+  return bytes_of(*made.value);
 }
 
 // 4 bytes of an FMU's state were whatever the heap held before.
@@ -64,6 +78,28 @@ TEST(Bytes, HoldNothingWhereAValueLacks) {
   EXPECT_EQ(back.opposite.muscle_pressure_Pa, std::nullopt);
   EXPECT_EQ(back.opposite.valve_pressure_Pa, 2e5);
   EXPECT_EQ(back.joint_force_N, 3.0);
+}
+
+// What a rig says of its sensor is no state; ends that its range lacks were whatever memory held.
+TEST(Bytes, OfAReaderAreOfItsCountsAlone) {
+  const auto reader_over = [](unsigned char before) {
+    const Over<plant::Sensor> sensor(before);
+    sensor.value->wiring = plant::EncoderWiring::crosswise;
+    plant::Rig rig;
+    rig.sensors.position() = *sensor.value;
+    return plant::PositionReader(rig);
+  };
+  plant::PositionReader counted = reader_over(0x55), same = reader_over(0xAA), back = same;
+  for (plant::PositionReader* each : {&counted, &same}) {
+    each->count(0.0301);
+    each->count(0.0200);
+  }
+  const std::string bytes = bytes_of(counted);
+  EXPECT_EQ(bytes, bytes_of(same));
+  BytesReader read(bytes);
+  read(back);
+  read.end();
+  EXPECT_EQ(back.count(0.0250), counted.count(0.0250));
 }
 
 }  // namespace
