@@ -188,7 +188,7 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
     : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
       remembers_(rig.remembers()),
       polytropic_(rig.effects.warm()),
-      springs_(any(rig.joint.has_spring())),
+      springs_(rig.joint.has_spring()),
       load_kg_(load_kg),
       radius_m_(rig.joint.wheel_radius_m),
       mass_kg_(rig.moved_kg(load_kg)),
@@ -201,7 +201,7 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<
       link_(link),
       remembers_(rig.remembers() || opposite.remembers()),
       polytropic_(rig.effects.warm() || opposite.effects.warm()),
-      springs_(any(rig.joint.has_spring())),
+      springs_(rig.joint.has_spring()),
       radius_m_(rig.joint.wheel_radius_m),
       opposite_share_(rig.muscle.rest_length_m / opposite.muscle.rest_length_m),
       mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_) +

@@ -86,7 +86,8 @@ struct JointOf {
           "by how much the load is read higher than it stands: zero of a laser or a potentiometer");
   }
 
-  auto has_spring() const { return spring_N_per_m != 0.0 || spring_preload_N != 0.0; }
+  /// Of any of the rigs in lanes.
+  bool has_spring() const { return any(spring_N_per_m != 0.0) || any(spring_preload_N != 0.0); }
   /// Force [N] of the return spring on the cord at a rise [m], against it where positive.
   template <class S>
   S spring_force_N(const S& rise_m) const {
