@@ -267,7 +267,7 @@ Identified Search::found() && {
 Identified identify(domain::Dataset data, const Settings& settings) {
   diagnose::Search limit(settings.time_limit_s);
   auto study = std::make_shared<const Study>(std::move(data), settings);
-  study->simulator.keep(settings.known != nullptr ? *settings.known : Simulated());
+  if (settings.known != nullptr) study->simulator.keep(*settings.known);
   Search search(study->problem, settings);
   search.begin();
   limit.part("", [&] { search.go_on(); });

@@ -32,7 +32,8 @@ struct Settings {
   /// Of the search: simulations of the set, which every machine counts alike, and a time that only stops it.
   long most_passes = 10000;
   double time_limit_s = std::numeric_limits<double>::infinity();
-  const Simulated* known = nullptr;  ///< of an earlier search on these data that was ended
+  /// Of an earlier search on these data that was ended; null: nothing is kept to go on from.
+  const Simulated* known = nullptr;
 };
 
 /// What a search stands on, and its models with it.

@@ -63,6 +63,7 @@ class Simulator {
  private:
   template <class Make>
   Eigen::MatrixXd once(std::size_t passes, const Make& make) const;
+
   const Rows& rows_;
   unsigned threads_;
   mutable std::atomic<long> passes_{0};

@@ -24,22 +24,6 @@ std::string_view name_of(Bench bench) {
   return bench == Bench::thesis ? "" : bench == Bench::other_size ? "size" : "wide";
 }
 
-std::string_view name_of(OtherLaw law) {
-  switch (law) {
-    case OtherLaw::none:
-      return "";
-    case OtherLaw::stick_slip:
-      return ", stick and slip";
-    case OtherLaw::area_friction:
-      return ", friction by area";
-    case OtherLaw::braid:
-      return ", another braid";
-    case OtherLaw::valve:
-      return ", valve of second order";
-  }
-  return "";
-}
-
 std::vector<DataSet> all_sets(std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
   std::vector<DataSet> sets;
   for (std::size_t kind = 0; kind < kinds(); ++kind) {

@@ -18,7 +18,6 @@ struct DataSet {
 };
 
 std::string_view name_of(Bench bench);
-std::string_view name_of(OtherLaw law);
 
 /// What has a title that begins so, on one bench after another, as far off its data sheet as this says of
 /// itself.

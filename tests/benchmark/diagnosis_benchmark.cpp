@@ -33,6 +33,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <plant/names.hpp>
 #include <sim/cluster/share.hpp>
 #include <sim/input/hash.hpp>
 #include <sim/run/batch.hpp>
@@ -108,8 +109,8 @@ std::string diagnose_one(const DataSet& set) {
       outcome,
       fmt::format(
           "{:<48} {:>4} {:<4} {:<16} {:<40} {:.2e} > {:.2e} > {:.2e} {:5.1f} s{}{}\n{}",
-          hidden.title + std::string(name_of(set.surroundings.other_law)), set.seed,
-          name_of(set.surroundings.bench), name_of(found.verdict), answer.said, found.gap.nominal_rmse,
+          hidden.title + std::string(plant::name_of(set.surroundings.other_law)), set.seed,
+          name_of(set.surroundings.bench), plant::name_of(found.verdict), answer.said, found.gap.nominal_rmse,
           found.gap.recalibrated_rmse, found.gap.corrected_rmse, outcome.took_s,
           evidence_in_words(outcome) + (found.verdict == Verdict::unknown_effect ? left_in_words(found) : ""),
           answer.well                                ? std::string()

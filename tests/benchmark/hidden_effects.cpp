@@ -18,8 +18,6 @@
 #include <sim/diagnose/priors.hpp>
 #include <sim/run/simulate.hpp>
 
-#include "own_law.hpp"
-
 namespace mckibben::diagnose {
 namespace {
 
@@ -257,29 +255,6 @@ std::vector<double> off_by(const Kind& kind, const Surroundings& surroundings, s
       off[static_cast<std::size_t>(dice.between(0.0, static_cast<double>(count)))] =
           std::copysign(3.0, dice.normal());
   return off;
-}
-
-/// Puts a law of no catalogue in the place of the rig's own.
-void put(OtherLaw law, plant::Rig& rig) {
-  switch (law) {
-    case OtherLaw::none:
-      return;
-    case OtherLaw::stick_slip:
-      rig.friction.memory = plant::FrictionMemory::coulomb;
-      return;
-    case OtherLaw::area_friction:
-      rig.friction.law = plant::FrictionLaw::area;
-      rig.friction.adhesion_Pa = 1000.0;
-      return;
-    case OtherLaw::braid:  // 3 % at an eighth of its length, nothing at a quarter
-      rig.effects.laws.list = {own_law(plant::LawTarget::force, "share * F_braid * 16 * e * (0.25 - e)",
-                                       {{"share", law::ratio, 0.03}})};
-      return;
-    case OtherLaw::valve:
-      rig.effects.laws.list = {own_law(plant::LawTarget::command, "p - command",
-                                       {{"T", law::second, 0.02}, {"damping", law::ratio, 0.5}},
-                                       {{"p", "q"}, {"q", "(command - p) / T^2 - 2 * damping * q / T"}})};
-  }
 }
 
 /// A rig that has it; notes in `hidden` what was planted.

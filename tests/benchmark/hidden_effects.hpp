@@ -13,6 +13,8 @@
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/domain/dataset.hpp>
 
+#include "other_law.hpp"
+
 namespace mckibben::diagnose {
 
 struct Planted {
@@ -40,10 +42,6 @@ enum class Bench { thesis, other_size, badly_known };
 /// How far the rig's numbers are off their data sheet: by chance, as told; each by one deviation; or two of
 /// them by three, the others by a tenth or so.
 enum class OffSheet { by_chance, each_by_one, two_by_three };
-
-/// A law that no catalogue has, in the place of the rig's own: stick and slip without a bristle, friction by
-/// the area of contact (T 1.1), a braid that pulls otherwise as it shortens, a valve of second order.
-enum class OtherLaw { none, stick_slip, area_friction, braid, valve };
 
 struct Surroundings {
   Bench bench = Bench::thesis;

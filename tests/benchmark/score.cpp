@@ -8,12 +8,6 @@
 
 namespace mckibben::diagnose {
 
-std::string_view name_of(Verdict verdict) {
-  for (const auto& [value, name] : names(verdict))
-    if (value == verdict) return name;
-  return {};
-}
-
 namespace {
 
 using Names = std::set<std::string>;

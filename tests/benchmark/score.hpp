@@ -4,7 +4,6 @@
 #include <array>
 #include <set>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <sim/diagnose/diagnosis.hpp>
@@ -14,8 +13,6 @@
 #include "tally.hpp"
 
 namespace mckibben::diagnose {
-
-std::string_view name_of(Verdict verdict);
 
 /// What a diagnosis says, and how that compares with what was hidden.
 struct Answer {
