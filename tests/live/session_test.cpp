@@ -135,7 +135,7 @@ TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
   EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 9.0, 9.0, 5.0}),
             "high = 9: must be above low, which is 9 mA");
   EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 4.0, 9.0, 0.0}), "period = 0: must be from 0.1 to 1000 s");
-  EXPECT_EQ(session.set_load(0.0), "kg = 0: must be from 0.01 to 500 kg");
+  EXPECT_EQ(session.set_load(-1.0), "kg = -1: must be from 0 to 500 kg");
   EXPECT_EQ(session.set_effect("leak", true, 1e-10, 0.0), "name = leak: there is no such effect");
   EXPECT_EQ(session.set_effect("muscle_leak", true, -1.0, 0.0),
             "size = -1: must be from 0 to 1e-08 m3/(s.Pa)");

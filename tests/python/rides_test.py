@@ -220,7 +220,7 @@ class Batches(unittest.TestCase):
 
     def test_nonsense_is_refused(self):
         batch = mckibben.Batch("thesis", [11.0, 12.0])
-        for bad in (lambda: mckibben.Batch([], [11.0]), lambda: mckibben.Batch("thesis", [0.0]),
+        for bad in (lambda: mckibben.Batch([], [11.0]), lambda: mckibben.Batch("thesis", [-1.0]),
                     lambda: mckibben.Batch("thesis_pair", [1.0]), lambda: batch.step([1.0, 2.0, 3.0]),
                     lambda: batch.step([numpy.nan, 1.0]), lambda: batch.follow(numpy.ones(4)),
                     lambda: mckibben.Batch(["thesis", {"tick": "10 ms"}], [11.0, 11.0])):
