@@ -6,6 +6,12 @@
 
 namespace mckibben::plant {
 
+/// How much of its length pulls.
+template <class P>
+P pulling_share(const MuscleOf<P>& muscle) {
+  return 1.0 - muscle.end_length_m / muscle.rest_length_m;
+}
+
 /// Constants of a braid, computed once; of muscles side by side, of all of them together. All lengths in m,
 /// areas in m2, volumes in m3.
 template <class P>
@@ -89,10 +95,11 @@ BraidOf<P>::BraidOf(const MuscleOf<P>& muscle) {
   b_ = 1.0 / (sine * sine);                    // T 2.7
   k_ = muscle.end_correction;
   const auto count = static_cast<double>(muscle.count);
-  area_m2_ = count * std::numbers::pi * muscle.rest_radius_m * muscle.rest_radius_m;
+  const P tube_m2 = count * std::numbers::pi * muscle.rest_radius_m * muscle.rest_radius_m;
+  area_m2_ = tube_m2 * pulling_share(muscle);
   length_m_ = muscle.rest_length_m;
   stop_N_per_m_ = count * muscle.stop_stiffness_N_per_m;
-  volume_at_rest_m3_ = count * muscle.dead_volume_m3 + area_m2_ * length_m_;
+  volume_at_rest_m3_ = count * muscle.dead_volume_m3 + tube_m2 * length_m_;
   surface_factor_m2_ = count * 2.0 * std::numbers::pi * muscle.rest_radius_m * length_m_ * sine;
   surface_cosine_ = muscle.contact_surface == ContactSurface::squared ? P(cosine * cosine) : cosine;
   lowest_ratio_ = 1.0 - 1.0 / sqrt(surface_cosine_);

@@ -46,6 +46,7 @@ struct MuscleOf {
   P rest_radius_m = 7.5e-3;
   P braid_angle_rad = 20.0 * degree_rad;
   P end_correction = 1.30;
+  P end_length_m = 0.0;
   P dead_volume_m3 = 5.0e-6;
   P stop_stiffness_N_per_m = 3.0e5;
   P stop_damping_s_per_m = 19.0;
@@ -59,6 +60,8 @@ struct MuscleOf {
     visit("braid_angle", self.braid_angle_rad, "rad", 5.0 * degree_rad, 50.0 * degree_rad,
           "angle between thread and axis at rest, alpha0 (T 2.6)");
     visit("end_correction", self.end_correction, "1", 1.0, 2.5, "correction for the conical ends, k (T 2.8)");
+    visit("end_length", self.end_length_m, "m", 0.0, 1.0,
+          "of the ends, which pull less: forces are less by its share of rest_length");
     visit("dead_volume", self.dead_volume_m3, "m3", 0.0, 1e-2, "gas volume of the fittings, V_d");
     visit("stop_stiffness", self.stop_stiffness_N_per_m, "N/m", 1e3, 1e8,
           "taut threads, e < 0: stiffness k_s; if left out, at least what bears all that the muscle lifts");
@@ -70,6 +73,7 @@ struct MuscleOf {
   void rules(Report& report) const {
     if (3.0 * std::cos(braid_angle_rad) * std::cos(braid_angle_rad) <= 1.0)
       report("braid_angle", "must be below 54.7 deg, where the braid no longer pulls");
+    if (end_length_m > 0.5 * rest_length_m) report("end_length", "must not be above half of rest_length");
   }
 };
 using Muscle = MuscleOf<double>;

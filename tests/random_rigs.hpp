@@ -73,6 +73,7 @@ struct Shuffle {
     if (key == "tick" || key == "settling_time") return;  // ours to choose: they cost time, not trouble
     if (key == "length_offset" || key == "reading_offset") return;  // of the bench, not of the rig
     if (key == "spring_preload") return;  // beyond what the threads bear, most of it
+    if (key == "end_length" || key == "exhaust_pressure") return;  // against the rules, most of it
     if (key == "lowest_command") return;
     if (factor > 0.0) {
       value = std::clamp(value * chance.around(1.0, factor), lowest, highest);

@@ -27,7 +27,7 @@ struct Part {
 constexpr Part scenario_parts[] = {
     {"rig",
      "rig:\n"
-     "  base: thesis                # or a muscle by catalogue: festo_dmsp_10, festo_dmsp_20, home_made\n"
+     "  base: thesis                # or a muscle by catalogue: festo_dmsp_10, festo_dmsp_20\n"
      "  #muscle: {rest_radius: 8 mm ± 1 %}                    "
      "# mckibben schema rig lists all that can change\n"
      "  #effects: {muscle_leak: {conductance: 1e-10 m3/(s.Pa)}}   "

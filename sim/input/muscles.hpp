@@ -6,6 +6,6 @@
 
 namespace mckibben::input {
 
-extern const std::string_view festo_dmsp_10, festo_dmsp_20, home_made;
+extern const std::string_view festo_dmsp_5, festo_dmsp_10, festo_dmsp_20, festo_dmsp_40, home_made;
 
 }  // namespace mckibben::input

@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> shipped{"thesis", "thesis_pair", "festo_dmsp_10", "festo_dmsp_20",
-                                                  "home_made"};
+constexpr std::array<std::string_view, 7> shipped{
+    "thesis", "thesis_pair", "festo_dmsp_5", "festo_dmsp_10", "festo_dmsp_20", "festo_dmsp_40", "home_made"};
 
 bool is_shipped(std::string_view name) {
   return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
@@ -72,10 +72,14 @@ Rig with_stops(Rig rig) {
 
 /// The text of a muscle by catalogue; empty of the thesis's rigs, which are built in as they are.
 std::string_view catalogue_text(std::string_view name) {
-  if (name == "festo_dmsp_10") return festo_dmsp_10;
-  if (name == "festo_dmsp_20") return festo_dmsp_20;
-  if (name == "home_made") return home_made;
-  return {};
+  const std::array<std::pair<std::string_view, std::string_view>, 5> texts{{{"festo_dmsp_5", festo_dmsp_5},
+                                                                            {"festo_dmsp_10", festo_dmsp_10},
+                                                                            {"festo_dmsp_20", festo_dmsp_20},
+                                                                            {"festo_dmsp_40", festo_dmsp_40},
+                                                                            {"home_made", home_made}}};
+  const auto found =
+      std::find_if(texts.begin(), texts.end(), [&](const auto& text) { return text.first == name; });
+  return found == texts.end() ? std::string_view{} : found->second;
 }
 
 Rig shipped_rig(std::string_view name) {

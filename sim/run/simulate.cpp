@@ -266,7 +266,7 @@ double contraction_per_count(const plant::Rig& rig) {
 namespace {
 
 controllers::ForceModel force_model(const plant::Muscle& muscle) {
-  return {muscle.rest_radius_m,
+  return {muscle.rest_radius_m * std::sqrt(plant::pulling_share(muscle)),
           muscle.rest_length_m,
           muscle.braid_angle_rad,
           muscle.end_correction,

@@ -40,6 +40,19 @@ TEST(Geometry, PneumaticWorkIsMechanicalWork) {
   }
 }
 
+TEST(Geometry, EndsPullNothing) {
+  Muscle muscle;
+  const Braid whole{muscle};
+  muscle.end_length_m = 0.060;
+  const Braid braid{muscle};
+  for (double e = -0.02; e < 0.29; e += 0.05) {
+    EXPECT_NEAR(braid.force_N(e, 3e5), 0.8 * whole.force_N(e, 3e5), 1e-9);
+    EXPECT_NEAR(3e5 * braid.volume_slope_m3(e), braid.force_N(e, 3e5) * 0.3, 1e-9);
+  }
+  EXPECT_DOUBLE_EQ(braid.volume_m3(0.0), whole.volume_m3(0.0));
+  EXPECT_DOUBLE_EQ(braid.largest_contraction_ratio(), whole.largest_contraction_ratio());
+}
+
 TEST(Geometry, ContactSurfaceAtRestIsTheTubesLateralSurface) {
   Muscle muscle;
   const double tube = 2.0 * pi * muscle.rest_radius_m * muscle.rest_length_m;
