@@ -152,7 +152,7 @@ class SideOf {
   double count_, share_;    // muscles side by side; 1/count
   FrictionOf<P> friction_;  // of all of them, by the contact surface of one
   P leak_kg_per_s_Pa_;      // of valves that are shut
-  P weight_N_, gas_energy_J_per_kg_, valve_stiffness_Pa_per_kg_, supply_Pa_;
+  P weight_N_, gas_energy_J_per_kg_, valve_stiffness_Pa_per_kg_, supply_Pa_, exhaust_Pa_;
   P quickness_per_s_, catching_up_per_s_;  // of a regulator: dP_v/dt for an error, the memory's for its own
 };
 using Side = SideOf<double>;
@@ -177,6 +177,7 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       gas_energy_J_per_kg_(rig.gas.gas_constant_J_per_kg_K * rig.gas.temperature_K),
       valve_stiffness_Pa_per_kg_(gas_energy_J_per_kg_ / rig.valve.volume_m3),
       supply_Pa_(rig.valve.supply_pressure_Pa + rig.gas.atmosphere_Pa),
+      exhaust_Pa_(rig.valve.exhaust_pressure_Pa + rig.gas.atmosphere_Pa),
       quickness_per_s_(1.0),
       catching_up_per_s_(1.0) {
   if constexpr (std::same_as<P, double>) rig_.effects.laws.take_places();  // those of lanes have theirs
@@ -222,7 +223,7 @@ void SideOf<P>::valve_flows(const Stroke<S>& stroke, const SideState<S>& state, 
   const auto wide_open = [&](const auto& fills) {
     return RestrictionOf<P>{select(fills, valve_.conductance_kg_per_s_Pa, vent_.conductance_kg_per_s_Pa),
                             valve_.critical_ratio, valve_.linear_zone_Pa}
-        .flow_kg_per_s(S(select(fills, supply_Pa, valve_Pa)), S(select(fills, valve_Pa, S(atmosphere))));
+        .flow_kg_per_s(S(select(fills, supply_Pa, valve_Pa)), S(select(fills, valve_Pa, S(exhaust_Pa_))));
   };
   S u;
   if (regulates_) {
@@ -261,7 +262,7 @@ void SideOf<P>::switched_flows(const SideState<S>& state, const SideMemory<S>& m
   now.wanted_opening = now.valve_opening = S(held.fills - held.vents);
   now.hose_flow = hose_.flow_kg_per_s(valve_Pa, S(state.muscle_pressure_Pa + atmosphere));
   now.supply_flow = through(valve_, held.fills, supply_Pa, valve_Pa);
-  now.vent_flow = through(vent_, held.vents, valve_Pa, S(atmosphere));
+  now.vent_flow = through(vent_, held.vents, valve_Pa, S(exhaust_Pa_));
 }
 
 // Whatever keeps a given pressure brings the gas that this takes.

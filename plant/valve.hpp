@@ -67,7 +67,7 @@ struct ValveOf {
   CommandUnit command_unit = CommandUnit::mA;  ///< of its commands, and of all that is measured in them
   P zero_command = 4.0, span_command = 20.0;
   P zero_pressure_Pa = 0.5e5, span_pressure_Pa = 5.0e5;
-  P supply_pressure_Pa = 6.0e5;
+  P supply_pressure_Pa = 6.0e5, exhaust_pressure_Pa = 0.0;
   P conductance_m3_per_s_Pa = 4.0e-9;
   P critical_ratio = 0.30;
   P proportional_band_Pa = 0.3e5;
@@ -111,10 +111,13 @@ struct ValveOf {
           "command at zero pressure: mA, V or bar, as the valve takes it, and then all commands of the rig");
     visit("span_command", self.span_command, "mA", 0.1, 100.0, "command at span pressure, in the same unit");
     if (ListsAll<Visitor> || !self.is_on_off()) {
-      visit("zero_pressure", self.zero_pressure_Pa, "Pa", 0.0, 2e6, "gauge pressure at zero_command (T 3.2)");
+      visit("zero_pressure", self.zero_pressure_Pa, "Pa", -0.95e5, 2e6,
+            "gauge pressure at zero_command (T 3.2)");
       visit("span_pressure", self.span_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure at span_command (T 3.2)");
     }
     visit("supply_pressure", self.supply_pressure_Pa, "Pa", 1e3, 2e6, "gauge pressure of the supply (T 3.1)");
+    visit("exhaust_pressure", self.exhaust_pressure_Pa, "Pa", -0.95e5, 2e6,
+          "gauge pressure of what it vents to: a vacuum pump's, below 0");
     visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 1e-12, 1e-5,
           "sonic conductance of each proportional valve, fully open, C_v");
     visit("critical_ratio", self.critical_ratio, "1", 0.01, 0.9,
@@ -159,7 +162,7 @@ struct ValveOf {
   /// What no file says of valves that are open or shut: their line is of what they can reach.
   void resolve() {
     if (!is_on_off()) return;
-    zero_pressure_Pa = 0.0;
+    zero_pressure_Pa = exhaust_pressure_Pa;
     span_pressure_Pa = supply_pressure_Pa;
   }
   template <class Report>
@@ -173,6 +176,10 @@ struct ValveOf {
              "an averaged duty has no edges that delays could shift: say pwm, or leave them out");
     if (span_command <= zero_command) report("span_command", "must be above zero_command");
     if (span_pressure_Pa <= zero_pressure_Pa) report("span_pressure", "must be above zero_pressure");
+    if (zero_pressure_Pa < exhaust_pressure_Pa)
+      report("zero_pressure",
+             "must not be below exhaust_pressure, what the valve vents to: of a vacuum pump say "
+             "exhaust_pressure: -0.9 bar");
     if (supply_pressure_Pa < span_pressure_Pa) report("supply_pressure", "must not be below span_pressure");
     const auto say = [&](const P& value, std::string_view key, std::string_view message) {
       if (value == 0.0) report(key, message);

@@ -12,7 +12,7 @@ template <class P>
 struct SupplyDroopOf {
   static constexpr std::string_view
       name = "supply_droop",
-      law = "V_s/(R T) dP_s/dt = g_s (P_supply - P_s) - q_in, q_in = what the supply valve draws",
+      law = "V_s/(n R T) dP_s/dt = g_s (P_supply - P_s) - q_in, q_in = what the supply valve draws",
       sentence = "the supply pressure sinks while the valve fills the muscle",
       source = "mass balance of a vessel behind a linear restriction";
   static constexpr std::array hooks{Hook::supply_drop};
@@ -21,12 +21,13 @@ struct SupplyDroopOf {
   static constexpr double memory_size = 1e5;
   static constexpr std::string_view memory_unit = "Pa";
 
-  P volume_m3 = 5e-4, line_resistance_s_Pa_per_kg = 0.0;
+  P volume_m3 = 5e-4, line_resistance_s_Pa_per_kg = 0.0, exponent = 1.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("volume", self.volume_m3, "m3", 1e-6, 1.0, "V_s");
-    visit("line_resistance", self.line_resistance_s_Pa_per_kg, "s.Pa/kg", 0.0, 1e10, "1/g_s; 0: absent");
+    visit("line_resistance", self.line_resistance_s_Pa_per_kg, "s.Pa/kg", 0.0, 1e15, "1/g_s; 0: absent");
+    visit("exponent", self.exponent, "1", 1.0, 1.4, "n: 1 isothermal, 1.4 adiabatic");
   }
   auto absent() const { return line_resistance_s_Pa_per_kg == 0.0; }
 
@@ -37,7 +38,7 @@ struct SupplyDroopOf {
   template <class S>
   S memory_rate(const Instant<S>& now, const Inflow<S>& inflow, const S& drop_Pa) const {
     using std::max;
-    const P stiffness_Pa_per_kg = now.gas_J_per_kg / volume_m3;
+    const P stiffness_Pa_per_kg = exponent * now.gas_J_per_kg / volume_m3;
     const P resistance = max(line_resistance_s_Pa_per_kg, P(fastest_s * stiffness_Pa_per_kg));
     return stiffness_Pa_per_kg * (inflow.supply_kg_per_s - drop_Pa / resistance);
   }

@@ -24,6 +24,66 @@ TEST_P(ClosedForm, ChokedFillingIsLinear) {
   EXPECT_NEAR(bench.flow.state.side.valve_pressure_Pa, expected_Pa, 1e-4 * expected_Pa);
 }
 
+// Choked, a tank empties as exp(-n R T C rho0 t/V); isothermal, what it lost is drawn.
+TEST_P(ClosedForm, ATankEmptiesByItsExponent) {
+  for (const double n : {1.0, 1.4}) {
+    plant::Rig rig;
+    rig.hose.conductance_m3_per_s_Pa = 1e-12;  // as good as shut
+    rig.valve.volume_m3 = 5e-4;
+    rig.valve.supply_pressure_Pa = 20e5;
+    auto& tank = rig.effects.get<plant::SupplyDroop>();
+    tank.volume_m3 = 1e-4;
+    tank.line_resistance_s_Pa_per_kg = 1e15;  // nothing refills it
+    tank.exponent = n;
+    RigOnBench bench(rig, 10.0, {GetParam(), 1e-9}, true);
+    bench.start(4.0);
+    bench.hold(20.0, 5);
+    const double RT = 287.05 * 293.15, full_Pa = 20e5 + 101325.0;
+    const double left_Pa = full_Pa * std::exp(-n * RT * 4e-9 * 1.185 * 0.06 / 1e-4);
+    const double drop_Pa = bench.plant.side().rig().effects.supply_drop_Pa(bench.flow.memory.side);
+    EXPECT_GT(drop_Pa, 4e5);
+    EXPECT_NEAR(full_Pa - drop_Pa, left_Pa, 2e-5 * full_Pa) << n;
+    EXPECT_NEAR(bench.flow.ledger.air_drawn_kg, 1e-4 * drop_Pa / (n * RT),
+                1e-4 * bench.flow.ledger.air_drawn_kg);
+  }
+}
+
+// A pump of a straight line: 1e-4 kg/s into an open outlet, 3 bar where it stalls, is a resistance of 3e9.
+TEST_P(ClosedForm, APumpFillsItsTankAsExponentialsSay) {
+  plant::Rig rig;
+  rig.hose.conductance_m3_per_s_Pa = 1e-12;
+  rig.valve.supply_pressure_Pa = 3e5;
+  rig.valve.span_pressure_Pa = 3e5;
+  auto& tank = rig.effects.get<plant::SupplyDroop>();
+  tank.volume_m3 = 1e-3;
+  tank.line_resistance_s_Pa_per_kg = 3e9;
+  RigOnBench bench(rig, 10.0, {GetParam(), 1e-9});
+  bench.start(4.0);
+  bench.flow.memory.side.fill(2e5);  // 1 bar is left in it; nothing else remembers
+  ASSERT_EQ(bench.plant.side().rig().effects.supply_drop_Pa(bench.flow.memory.side), 2e5);
+  bench.hold(4.0, 100);
+  const double drop_Pa = 2e5 * std::exp(-287.05 * 293.15 / 1e-3 / 3e9 * 1.2);
+  EXPECT_NEAR(bench.plant.side().rig().effects.supply_drop_Pa(bench.flow.memory.side), drop_Pa, 10.0);
+}
+
+// Choked, what is vented falls as exp(-R T C rho0 t/V), below the atmosphere as well.
+TEST_P(ClosedForm, AVacuumPumpEmptiesBelowTheAtmosphere) {
+  plant::Rig rig;
+  rig.hose.conductance_m3_per_s_Pa = 1e-12;
+  rig.valve.zero_pressure_Pa = rig.valve.exhaust_pressure_Pa = -0.9e5;
+  RigOnBench bench(rig, 10.0, {GetParam(), 1e-9});
+  bench.start(20.0);
+  bench.hold(4.0, 24);
+  const double left_Pa = (5e5 + 101325.0) * std::exp(-287.05 * 293.15 * 1.185 * 4e-9 / 5e-5 * 0.288);
+  EXPECT_LT(left_Pa, 0.7e5);
+  EXPECT_NEAR(bench.flow.state.side.valve_pressure_Pa + 101325.0, left_Pa, 1e-3 * left_Pa);  // the hose leaks
+  rig.hose.conductance_m3_per_s_Pa = 1.5e-8;
+  RigOnBench whole(rig, 10.0, {GetParam(), 1e-9});
+  whole.start(12.0);
+  whole.hold(4.0, 2000);
+  EXPECT_NEAR(whole.flow.state.side.muscle_pressure_Pa, -0.9e5, 100.0);
+}
+
 TEST_P(ClosedForm, AnEmptyMuscleLetsTheLoadFallFreely) {
   plant::Rig rig;
   rig.muscle.rest_radius_m = 5e-4;  // a thread: its pull is a few millionths of the weight
@@ -107,6 +167,27 @@ TEST_P(ClosedForm, AMassSwingsOnItsSpring) {
               0.03 + 0.01 * std::cos(std::sqrt(500.0 / 0.3) * 0.6), 2e-6);
   EXPECT_NEAR(bench.plant.mechanical_energy_J(bench.flow.state), bench.plant.mechanical_energy_J(before),
               1e-6);
+}
+
+// theta = theta0 cos(sqrt(m g L/I) t)
+TEST_P(ClosedForm, ALinkOnEmptyMusclesIsAPendulum) {
+  plant::Rig one = on_a_spring(0.0, 0.0);
+  one.joint.moving_mass_kg = 0.0;
+  plant::Link link;
+  link.damping_N_m_s_per_rad = 0.0;
+  const plant::Plant plant = plant::plant_of(plant::pair_of(one, one, link));
+  const auto integrator = make_integrator(plant, {GetParam(), 1e-10}, false);
+  plant::Held held;
+  held.given = held.opposite.given = plant::GivenPressure::muscle;
+  Flow flow;
+  flow.state = plant.at_rest(held);  // no pressure
+  flow.state.joint.contraction_ratio += 1e-3 * one.joint.wheel_radius_m / one.muscle.rest_length_m;
+  const double per_s = std::sqrt(link.mass_kg * 9.80665 * link.length_m / link.inertia_kg_m2);
+  for (int k = 0; k < 100; ++k) {
+    integrator->advance(flow, held, 0.012 * k, 0.012 * (k + 1));
+    EXPECT_NEAR(plant.angle_rad(flow.state.joint.contraction_ratio), 1e-3 * std::cos(per_s * 0.012 * (k + 1)),
+                1e-8);
+  }
 }
 
 TEST_P(ClosedForm, ASpringGivesBackWhatItTook) {
