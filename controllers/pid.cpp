@@ -81,7 +81,9 @@ double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA, c
   const double y =
       (static_cast<double>(counts) + knowledge_.middle_of_count) * knowledge_.contraction_per_count;
   const double r = terms_.allowed(knowledge_.target_at(tick));
-  const double P_mA = K_mA_ * (terms_.setpoint_weight * r - y);
+  const bool rests = terms_.dead_zone && std::abs(r - y) <= *terms_.dead_zone;
+  const double error = rests ? 0.0 : r - y;
+  const double P_mA = K_mA_ * (terms_.setpoint_weight * r - (rests ? r : y));
   const bool begins = first_;
   if (first_) {
     y_before_ = y;
@@ -90,12 +92,13 @@ double PidLoop::sample(std::int64_t counts, std::int64_t tick, double base_mA, c
   }
   const double filter_s = Td_s_ + terms_.derivative_filter * h_s_;
   D_mA_ = (Td_s_ * D_mA_ - K_mA_ * Td_s_ * terms_.derivative_filter * (y - y_before_)) / filter_s;
+  if (rests) D_mA_ = 0.0;
   y_before_ = y;
 
   const double v_mA = base_mA + P_mA + I_mA_ + D_mA_;
   const CurrentRange reach = begins ? limits : terms_.within_reach(limits, output_mA_, h_s_);
   const double u_mA = std::clamp(v_mA, reach.lowest_mA, reach.highest_mA);
-  if (Ti_s_ > 0.0) I_mA_ += K_mA_ * h_s_ / Ti_s_ * (r - y) + h_s_ / Tt_s_ * (u_mA - v_mA);
+  if (Ti_s_ > 0.0) I_mA_ += K_mA_ * h_s_ / Ti_s_ * error + h_s_ / Tt_s_ * (u_mA - v_mA);
   return u_mA;
 }
 

@@ -48,11 +48,15 @@ struct PidForm {
 
 /// Everything about the feedback itself.
 struct PidTerms : PidForm, SafetyTerms, OutputLimits {
+  std::optional<double> dead_zone = std::nullopt;
+
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("proportional", self.proportional_mA, "mA", 0.0, 1e6,
           "gain K, command for a whole contraction ratio; tuned if absent");
     PidForm::fields(self, visit);
+    visit("dead_zone", self.dead_zone, "1", 0.0, 0.5,
+          "errors, either way, that count as none: solenoid valves rest there; none if absent");
     OutputLimits::fields(self, visit);
     visit("tuning_load", self.tuning_load_kg, "kg", 0.0, 500.0,
           "load at which missing gains are tuned; the scenario's median load if absent");

@@ -19,6 +19,7 @@
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/input_file.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/domain/outer_force.hpp>
 
 namespace mckibben::domain {
 
@@ -135,6 +136,7 @@ struct Scenario {
   double duration_s = 0.0;
   std::optional<double> skip_s;  ///< of errors and tuning; absent: until the target first moves
   std::vector<controllers::Settings> controllers;
+  std::vector<OuterForce> outer_forces;  ///< of one muscle
   plant::Noise noise;
   std::uint64_t seed = 1;
   std::vector<Criterion> criteria;
@@ -166,6 +168,8 @@ struct Scenario {
     visit_controllers<controllers::SingleSettings>(self, [&](auto& controllers) {
       visit.required("controllers", controllers, "what is to follow the target");
     });
+    visit("joint_force", self.outer_forces,
+          "forces on the cord in addition to the load, one after the other; none before the first");
     fields_of_chance(self, visit);
     visit("criteria", self.criteria, "what counts as good enough");
     visit("robustness", self.robustness, "how controllers do on rigs that are not quite as described");

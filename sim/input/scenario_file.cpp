@@ -46,6 +46,7 @@ class ScenarioChecker {
       check_lifts_a_load(file_, scenario_.rig, problems_);
       check_loads(file_, scenario_.loads_kg, scenario_.rig, problems_);
       check_target();
+      check_outer_forces();
       if (scenario_.controllers.empty())
         problems_.error(source_, list("controllers").place, "controllers: at least one controller is needed");
     }
@@ -276,6 +277,32 @@ class ScenarioChecker {
         problems_.error(source_, given->place,
                         fmt::format("controller = {} is not a controller of this scenario: {}{}", name,
                                     join(names), did_you_mean(name, names)));
+    }
+  }
+
+  void check_outer_forces() {
+    const auto& forces = scenario_.outer_forces;
+    const plant::Rig& rig = scenario_.rig;
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+      const auto wrong = [&](const std::string& message) {
+        problems_.error(source_, list("joint_force").children[i].place, message);
+      };
+      if (i > 0 && forces[i].at_s <= forces[i - 1].at_s) wrong("joint_force: times must ascend");
+      if (forces[i].at_s >= scenario_.duration_s) wrong("joint_force: at must be before the end, duration");
+      for (const double load_kg : scenario_.loads_kg) {
+        const double pulls_kg = rig.pulled_kg(load_kg) + forces[i].force_N / plant::gravity_m_per_s2;
+        const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
+        if (pulls_kg < 0.0)
+          wrong(fmt::format("joint_force: with a load of {:g} kg it would push the cord, which only pulls",
+                            load_kg));
+        else if (pulls_kg > most_kg)
+          wrong(fmt::format(
+              "joint_force: with a load of {:g} kg it is more than the taut threads bear, {:.4g} N", load_kg,
+              most_kg * plant::gravity_m_per_s2));
+        else
+          continue;
+        break;
+      }
     }
   }
 

@@ -113,6 +113,7 @@ class Run : public ride::BatchItem {
     if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
     recording_.findings = findings_for(controller_, plan_.rig);
     recording_.driven.pair = plan_.rig.pair() != nullptr;
+    recording_.driven.joint_force = !plan_.outer_forces.empty();
     note_slack(recording_);
     done_(std::move(recording_));
   }
@@ -185,6 +186,10 @@ class Run : public ride::BatchItem {
 
   void hold() {
     drive_.stray_pressure_Pa = disturbance_.reference_Pa(time_s(k_));
+    for (; next_force_ < plan_.outer_forces.size(); ++next_force_) {
+      if (plan_.outer_forces[next_force_].at_s > time_s(k_) + ride::same_instant_s) break;
+      drive_.joint_force_N = plan_.outer_forces[next_force_].force_N;
+    }
     rider_.hold(drive_, time_s(k_ + 1));
   }
 
@@ -196,6 +201,7 @@ class Run : public ride::BatchItem {
   ride::Rider rider_;
   std::int64_t first_, begin_, k_;  // ticks: of the controller, of the settling, now
   ride::Drive drive_;
+  std::size_t next_force_ = 0;
   const plant::Sensor& sensor_ = plan_.rig.sensors.position();
   plant::PositionReader counter_;
   Disturbance disturbance_;

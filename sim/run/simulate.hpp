@@ -13,6 +13,7 @@
 #include <controllers/controller.hpp>
 #include <plant/instruments.hpp>
 #include <plant/rig.hpp>
+#include <sim/domain/outer_force.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/run_batch.hpp>
 
@@ -25,6 +26,7 @@ struct RunPlan {
   plant::Noise noise{};
   std::uint64_t seed = 1, stream = 0;  ///< runs of one seed differ by their stream
   bool keep_ledger = false;
+  std::vector<domain::OuterForce> outer_forces{};  ///< on the cord, in order of time
 };
 
 /// Simulates one run. If the integrator or the controller gives up, the recording ends there and says why.

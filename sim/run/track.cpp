@@ -83,7 +83,8 @@ RunPlan plan_of(const domain::Scenario& scenario, double load_kg, std::uint64_t 
                .noise = scenario.noise,
                .seed = scenario.seed,
                .stream = stream,
-               .keep_ledger = true};
+               .keep_ledger = true,
+               .outer_forces = scenario.outer_forces};
   if (plant::Pair* pair = plan.rig.pair()) *pair = plant::with_load_in_hand(*pair, load_kg, scenario.hand_m);
   return plan;
 }

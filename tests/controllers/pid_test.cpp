@@ -62,6 +62,21 @@ TEST(Pid, ProportionalPartIsGainTimesErrorFromTheMiddleOfTheCount) {
   EXPECT_NEAR(currents_mA[2], 10.0 + 40.0 * (0.2 - 0.2005), 1e-12) << "the last target holds";
 }
 
+TEST(Pid, RestsWithinItsDeadZone) {
+  PidSettings settings = gains(40.0, 0.0, 0.5);
+  settings.dead_zone = 0.01;
+  const auto currents_mA = play(settings, wanting({0.1}), {50, 95, 104, 115, 109});
+  EXPECT_NEAR(currents_mA[0], 10.0 + 40.0 * (0.1 - 0.0505), 1e-12);
+  EXPECT_EQ(currents_mA[1], 10.0);
+  EXPECT_EQ(currents_mA[2], 10.0);
+  EXPECT_LT(currents_mA[3], 10.0 - 40.0 * 0.0155);
+  EXPECT_EQ(currents_mA[4], 10.0);
+  settings = gains(40.0, 1.0, 0.0);
+  settings.dead_zone = 0.01;
+  const auto held_mA = play(settings, wanting({0.1, 0.15, 0.105}), {95, 95, 97, 98});
+  EXPECT_EQ(held_mA[2], held_mA[3]) << "the integral stands";
+}
+
 TEST(Pid, SetpointWeightScalesTheTargetInTheProportionalPart) {
   PidSettings settings = gains(40.0, 0.0, 0.0);
   settings.setpoint_weight = 0.25;

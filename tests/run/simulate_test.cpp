@@ -52,6 +52,57 @@ TEST(Simulate, TheCurrentOfARowIsFeltInTheNext) {
             recording.samples[3].state.side.valve_pressure_Pa + 1e4);
 }
 
+// 5 kg that are hung on later are a weight of 49.03325 N from then on.
+TEST(Simulate, AForceOnTheCordActsFromItsTickOn) {
+  controllers::StepCurrent current;
+  current.start_mA = 8.0;
+  current.moves = {{0.5, 14.0}};
+  RunPlan pulled = plan(10.0, 900);
+  pulled.outer_forces = {{3.0, 49.03325}, {9.0, 0.0}};
+  pulled.keep_ledger = true;
+  const auto free = ride(plan(10.0, 900), current), with = ride(pulled, current);
+  EXPECT_TRUE(with.driven.joint_force);
+  EXPECT_FALSE(free.driven.joint_force);
+  for (std::size_t k = 0; k <= 250; ++k)
+    ASSERT_EQ(with.samples[k].state.joint.contraction_ratio, free.samples[k].state.joint.contraction_ratio);
+  EXPECT_EQ(with.samples[249].joint_force_N, 0.0);
+  EXPECT_EQ(with.samples[250].joint_force_N, 49.03325);
+  EXPECT_LT(with.samples[251].state.joint.contraction_speed_per_s,
+            free.samples[251].state.joint.contraction_speed_per_s);
+  EXPECT_LT(with.imbalance.energy, 1e-5);
+  // Where nothing but the floor of 1 N rubs it comes to rest where 15 kg do.
+  RunPlan early = plan(10.0, 900);
+  early.rig.friction.scale = 0.0;
+  early.rig.joint.guide_damping_N_s_per_m = 200.0;
+  RunPlan heavy = early;
+  heavy.load_kg = 15.0;
+  early.outer_forces = {{0.0, 49.03325}};
+  EXPECT_NEAR(ride(early, current).samples.back().state.joint.contraction_ratio,
+              ride(heavy, current).samples.back().state.joint.contraction_ratio, 5e-4);
+}
+
+// On solenoids commanded by a duty: 12 V of 24 V is both shut.
+TEST(Simulate, APidWithADeadZoneLetsSolenoidsRest) {
+  RunPlan bench = plan(10.0, 600);
+  plant::command_in(bench.rig, plant::CommandUnit::V, 0.0, 24.0);
+  bench.rig.dac = plant::dac_for(bench.rig.valve);
+  bench.rig.valve.kind = plant::ValveKind::on_off;
+  bench.rig.valve.switching = plant::Switching::pwm;
+  bench.rig.valve.pwm_frequency_Hz = 40.0;
+  bench.rig.valve.conductance_m3_per_s_Pa = 1e-9;
+  bench.rig.valve.resolve();
+  controllers::PidSettings settings;
+  settings.proportional_mA = 100.0;
+  settings.integral_time_s = settings.derivative_time_s = 0.0;
+  settings.rest_current_mA = 12.0;
+  settings.dead_zone = 0.002;
+  const auto controller = controllers::make(controllers::Settings(settings), knowledge_of(bench.rig, {0.08}));
+  const auto recording = simulate(bench, *controller);
+  ASSERT_EQ(recording.failure, "");
+  EXPECT_NEAR(recording.samples.back().state.joint.contraction_ratio, 0.08, 0.003);
+  for (std::size_t k = 500; k < 600; ++k) EXPECT_EQ(recording.samples[k].current_mA, 12.0) << k;
+}
+
 // T 2.8, 4.1, 4.2 at rest: going up P (A [..] - f S) = m g + floor,
 // coming down P (A [..] + f S) = m g - floor.
 TEST(Simulate, ASlowRideRunsRoundTheStaticHysteresisLoop) {
