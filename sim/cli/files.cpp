@@ -61,8 +61,6 @@ Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& wa
   run::Look look = run::look(data);
   Looked looked{fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
                             data.runs.size())};
-  if (std::string why = input::why_unfit(domain::Purpose::diagnosis, data); !why.empty())
-    looked.diagnose.push_back("cannot take it yet: " + why);
   std::erase_if(look.findings, [&](const data::Finding& one) {
     if (data::only_limits_diagnosis(one)) looked.diagnose.push_back(one.message);
     return data::only_limits_diagnosis(one);

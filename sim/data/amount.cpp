@@ -1,4 +1,6 @@
 // See the header.
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include <sim/data/amount.hpp>
@@ -11,6 +13,9 @@ std::string amount_of(Judged judged, double value, const plant::Rig& rig, int di
       return fmt::format("{:.{}g} N", value, digits);
     case Judged::angle:
       return fmt::format("{:.{}g} deg", value / plant::degree_rad, digits);
+    case Judged::pressure:
+      return std::abs(value) < 1e4 ? fmt::format("{:.{}g} mbar", 1e3 * value / plant::Pa_per_bar, digits)
+                                   : fmt::format("{:.{}g} bar", value / plant::Pa_per_bar, digits);
     case Judged::contraction:
       break;
   }
@@ -23,6 +28,8 @@ std::string_view unit_in_words(Judged judged) {
       return "N";
     case Judged::angle:
       return "rad";
+    case Judged::pressure:
+      return "Pa";
     case Judged::contraction:
       break;
   }

@@ -149,6 +149,7 @@ class Columns {
     if (data_.judged() == domain::Judged::contraction && findings_.empty()) halved(all);
     if (data_.judged() == domain::Judged::angle) angle(all);
     if (data_.judged() == domain::Judged::force) force(all, false);
+    if (const auto which = data_.runs.front().judged_gauge()) judge(pressure(*which), all);
     force(beside, true);
   }
 

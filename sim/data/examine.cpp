@@ -27,15 +27,17 @@ class Readings {
       : data_(data),
         expected_(expected),
         result_(result),
-        bench_(data.force_is_judged()),
+        bench_(data.lengths_are_given()),
         pair_(data.rig.pair() != nullptr),
-        count_(reading_grain(data.rig)) {}
+        count_(reading_grain(data.judged(), data.rig)) {}
 
   void operator()() {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       if (data_.runs[i].judged().size() != expected_[i].judged.size()) continue;
       for (const domain::Beside which : domain::gauges) gauge(i, which);
-      if (bench_)
+      if (data_.judged() == domain::Judged::pressure)
+        presses(i);
+      else if (bench_)
         pulls(i);
       else if (moves(i))
         readings(i);
@@ -105,6 +107,15 @@ class Readings {
     const std::vector<bool>& masked = result_.masked[i];
     if (std::find(masked.begin(), masked.end(), false) == masked.end())
       leave_out(i, "the cord was slack all the time: no force was read");
+  }
+
+  void presses(std::size_t i) {
+    const Series& values = data_.runs[i].judged();
+    if (range(values) == 0.0)
+      leave_out(i, fmt::format("the pressure is {:.4g} bar throughout: is the gauge connected?",
+                               values.front() / plant::Pa_per_bar));
+    else
+      mask_spikes(i, "the pressure", values, expected_[i].judged, of_readings.gauge_step_Pa);
   }
 
   bool moves(std::size_t i) {
@@ -218,6 +229,7 @@ class Readings {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const auto same = [&](const domain::Run& run) {
         return run.judged() == data_.runs[i].judged() && run.current_mA == data_.runs[i].current_mA &&
+               run.missing == data_.runs[i].missing &&
                ((!bench_ && !pair_) || same_inputs(*run.measured, *data_.runs[i].measured));
       };
       const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
@@ -231,7 +243,7 @@ class Readings {
   const std::string command_ = plant::command_key(data_.rig);
   const std::vector<Expected>& expected_;
   Examined& result_;
-  bool bench_;  ///< lengths are given, and forces judged
+  bool bench_;  ///< lengths are given, and forces or pressures judged
   bool pair_;   ///< two muscles turn a joint, and its angle is judged
   double count_;
 };
@@ -263,15 +275,16 @@ void require_enough(const domain::Dataset& data, const std::vector<bool>& left_o
                             "no run is usable: mend what is said of each, name another file or column, "
                             "or measure again",
                         .severity = Severity::unusable});
-  else if (loads_kg.size() < of_readings.least_runs)
+  else if (loads_kg.size() < of_readings.least_runs && !has_parts(data))
     findings.push_back(
         {.message = fmt::format(
              "{} usable run{}: too few to choose on some and test on others; at least four runs would help, "
              "with {}.",
              loads_kg.size(), loads_kg.size() == 1 ? "" : "s",
-             judged == domain::Judged::force   ? "each its own length"
-             : judged == domain::Judged::angle ? "each with other trajectories of the two pressures"
-                                               : "two loads and two kinds of current"),
+             judged == domain::Judged::force      ? "each its own length"
+             : judged == domain::Judged::pressure ? "to other pressures, fast and slow"
+             : judged == domain::Judged::angle    ? "each with other trajectories of the two pressures"
+                                                  : "two loads and two kinds of current"),
          .severity = Severity::undecidable});
   else if (judged == domain::Judged::contraction &&
            range(loads_kg) < of_readings.same_load * loads_kg.front())

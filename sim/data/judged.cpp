@@ -9,6 +9,7 @@
 #include <sim/data/judged.hpp>
 #include <sim/data/scatter.hpp>
 #include <sim/data/series.hpp>
+#include <sim/data/thresholds.hpp>
 
 namespace mckibben::data {
 namespace {
@@ -187,9 +188,8 @@ class Judging {
       list.push_back({recorded, rows, run_.missing_beside[static_cast<std::size_t>(which)], left});
     };
     const auto gauge = [&](domain::Beside which, auto& left) {
-      const plant::Channel channel = domain::channel_of(which, true);
-      const auto& read = raw_.read(channel.signal->in_dataset, channel.muscle);
-      if (is_read(read)) add(which, read, run_.gauge(which).emplace(), left);
+      if (const auto& read = shown_by(which); is_read(read) && which != judged_gauge_)
+        add(which, read, run_.gauge(which).emplace(), left);
     };
     for (const domain::Beside which : domain::gauges) gauge(which, pressure_squares);
     for (const domain::Beside which : domain::valve_gauges) gauge(which, valve_squares);
@@ -198,8 +198,18 @@ class Judging {
     return list;
   }
 
+  const std::vector<double>& shown_by(domain::Beside gauge) const {
+    const plant::Channel channel = domain::channel_of(gauge, true);
+    return raw_.read(channel.signal->in_dataset, channel.muscle);
+  }
+
   /// The reading that is judged, as it was recorded, and where its rows go.
   std::pair<const std::vector<double>&, std::vector<double>&> judged() {
+    if (raw_.reads_only_pressures()) {
+      judged_gauge_ =
+          *std::ranges::find_if(domain::besides, [&](auto which) { return is_read(shown_by(which)); });
+      return {shown_by(*judged_gauge_), run_.gauge(*judged_gauge_).emplace()};
+    }
     if (pair_) return {raw_.read("angle"), run_.angle_rad};
     if (raw_.gives_length()) return {raw_.read("force"), run_.force_N};
     return {raw_.read("contraction"), run_.contraction_ratio};
@@ -312,6 +322,7 @@ class Judging {
   double row_s_;
   std::mt19937_64 random_;
   bool fast_ = false;
+  std::optional<domain::Beside> judged_gauge_{};  // where only pressures were read
 };
 
 /// Between the rows of the whole data set.
@@ -336,12 +347,59 @@ std::size_t leave_out_the_end(const plant::Sensor* cell, std::vector<double>& fo
 
 }  // namespace
 
+domain::Run beginning_of(domain::Run run, std::size_t rows) {
+  if (rows >= run.judged().size()) return run;
+  for (auto* column : {&run.current_mA, &run.contraction_ratio, &run.force_N, &run.angle_rad, &run.time_s})
+    if (!column->empty()) column->resize(rows);
+  for (const domain::Beside which : domain::besides) {
+    if (which != domain::Beside::force && run.gauge(which)) run.gauge(which)->resize(rows);
+    auto& missing = run.missing_beside[static_cast<std::size_t>(which)];
+    if (!missing.empty()) missing.resize(rows);
+  }
+  if (!run.missing.empty()) run.missing.resize(rows);
+  for (auto* driving : {&run.measured, &run.shaken})
+    if (*driving) (*driving)->rows.resize(rows);
+  return run;
+}
+
+namespace {
+constexpr std::size_t parts = 4, least_rows = 25;  // of each
+}
+
+bool has_parts(const domain::Dataset& data) {
+  return data.runs.size() == 1 && data.runs.front().judged().size() >= parts * least_rows;
+}
+
+domain::Dataset in_parts(domain::Dataset data) {
+  if (!has_parts(data)) return data;
+  const domain::Run whole = std::move(data.runs.front());
+  data.runs.clear();
+  data.parts_of_a_run = true;
+  const std::size_t rows = whole.judged().size();
+  for (std::size_t part = 0; part < parts; ++part) {
+    domain::Run run = beginning_of(whole, rows * (part + 1) / parts);
+    run.id += "-" + std::to_string(part + 1);
+    const auto first = static_cast<std::ptrdiff_t>(rows * part / parts);
+    run.missing.resize(run.judged().size(), false);
+    std::fill_n(run.missing.begin(), first, true);
+    for (const domain::Beside which : domain::besides)
+      if (run.beside(which) != nullptr) {
+        auto& missing = run.missing_beside[static_cast<std::size_t>(which)];
+        missing.resize(run.judged().size(), false);
+        std::fill_n(missing.begin(), first, true);
+      }
+    data.runs.push_back(std::move(run));
+  }
+  return data;
+}
+
 double reading_per_count(const plant::Rig& rig) {
   if (rig.pair() == nullptr) return plant::count_height_m(rig) / rig.muscle.rest_length_m;
   return plant::count_height_m(rig) / rig.joint.wheel_radius_m;
 }
 
-double reading_grain(const plant::Rig& rig) {
+double reading_grain(domain::Judged judged, const plant::Rig& rig) {
+  if (judged == domain::Judged::pressure) return thresholds.reading.gauge_step_Pa;
   const double count = reading_per_count(rig);
   const plant::Sensor& sensor = rig.sensors.position();
   if (sensor.counts_pulses()) return count;

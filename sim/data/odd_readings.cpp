@@ -31,7 +31,7 @@ std::vector<Stretch> spikes(Series values, const Series& sharpest, double count,
   for (std::size_t begin = 0; begin < rows && rows > 3; ++begin) {
     for (std::size_t end = begin + 1; end <= std::min(rows, begin + beyond.spike_ticks); ++end) {
       const bool first = begin == 0, last = end == rows;
-      if ((first || last) && (!at_ends || end - begin > 1)) break;
+      if ((first || last) && end - begin > 1) break;
       // Beyond the ends of the run the movement is taken to go on.
       const double before = first ? 3.0 * values[1] - 2.0 * values[2] : values[begin - 1];
       const double after = last ? 3.0 * values[rows - 2] - 2.0 * values[rows - 3] : values[end];
@@ -44,6 +44,7 @@ std::vector<Stretch> spikes(Series values, const Series& sharpest, double count,
       if (least < limit || there * back >= 0.0 || std::abs(there + back) > beyond.spike_balance * least)
         continue;
       const bool inside = begin > 1 && end + 1 < rows;
+      if (!inside && !at_ends) break;
       const double alike = beyond.beside_counts * count + beyond.beside_bends * sharpest[begin];
       if (inside && (std::abs(values[begin - 1] - values[begin - 2] - slope) > alike ||
                      std::abs(values[end + 1] - values[end] - slope) > alike))

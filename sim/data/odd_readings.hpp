@@ -25,8 +25,8 @@ struct Still : Stretch {
 Series sharpest_nearby(const Series& model, double tick_s);
 
 /// Readings that leave the line through their neighbours with a jump and come back to it with another, within
-/// a few ticks. `at_ends`: also where a run begins and ends; there it must stand still, as one jump is all
-/// that is seen.
+/// a few ticks. `at_ends`: also within two rows of where a run begins and ends; at the end itself it must
+/// stand still, as one jump is all that is seen.
 std::vector<Stretch> spikes(Series values, const Series& sharpest, double count, bool at_ends);
 
 /// A row at which the reading jumps and stays: the load moves before and after as if nothing had happened.

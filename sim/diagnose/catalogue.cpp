@@ -45,37 +45,50 @@ Candidate candidate_of(const plant::LawText& law) {
   return c;
 }
 
-/// What a user's law acts on: whether data of a given pressure show it.
-bool makes_pressure(const plant::LawText& law) {
-  return law.adds == plant::LawTarget::outflow || law.adds == plant::LawTarget::command;
+/// Where effects act that data leave nothing to see of: upstream of what is given, and on what was not read.
+std::vector<plant::Hook> hidden(const domain::Dataset& data) {
+  using enum plant::Hook;
+  std::vector<plant::Hook> list;
+  const bool muscle = data.pressure_is_given();
+  if (muscle || data.valve_pressure_is_given())
+    list = {valve_error_shift, valve_opening, supply_drop, vent_factor, command_delay, reference};
+  if (muscle) list.insert(list.end(), {outflow, gas_exponent, muscle_heating});
+  if (data.judged() == domain::Judged::pressure)
+    list.insert(list.end(), {wheel, reading_factor, reading_delay});
+  return list;
 }
 
-/// Whether an effect acts on what makes the muscle's pressure, and on nothing else.
 template <class E>
-constexpr bool makes_pressure() {
-  using enum plant::Hook;
-  constexpr std::array of_pressure{outflow,           gas_exponent,  muscle_heating,
-                                   valve_error_shift, valve_opening, supply_drop,
-                                   vent_factor,       command_delay, reference};
-  return std::ranges::all_of(
-      E::hooks, [&](plant::Hook hook) { return std::ranges::find(of_pressure, hook) != of_pressure.end(); });
+bool is_hidden(const std::vector<plant::Hook>& hooks) {
+  return std::ranges::all_of(E::hooks,
+                             [&](plant::Hook hook) { return std::ranges::find(hooks, hook) != hooks.end(); });
+}
+
+/// Whether data of which this is hidden show a user's law.
+bool is_hidden(const plant::LawText& law, const std::vector<plant::Hook>& hooks) {
+  const auto has = [&](plant::Hook hook) { return std::ranges::find(hooks, hook) != hooks.end(); };
+  return (law.adds == plant::LawTarget::outflow && has(plant::Hook::outflow)) ||
+         (law.adds == plant::LawTarget::command && has(plant::Hook::reference));
 }
 
 }  // namespace
 
-std::vector<std::string> effects_out_of_sight() {
+std::vector<std::string> effects_out_of_sight(const domain::Dataset& data) {
+  const std::vector<plant::Hook> hooks = hidden(data);
   std::vector<std::string> names;
   const auto add = [&]<class E>(const E& effect) {
-    if (makes_pressure<E>() && !E::variants.empty()) names.emplace_back(effect.name);
+    if (is_hidden<E>(hooks) && !E::variants.empty()) names.emplace_back(effect.name);
   };
   std::apply([&](const auto&... effect) { (add(effect), ...); }, plant::Effects::Table{});
   return names;
 }
 
-bool out_of_sight(const Parameter& p) {
+bool out_of_sight(const domain::Dataset& data, const Parameter& p) {
   const std::string_view path = of_muscle_1(p.path);
   const auto begins = [&](std::string_view part) { return path.starts_with(part); };
-  return begins("valve.") || begins("hose.") || begins("gas.") || path == "muscle.dead_volume";
+  if (data.pressure_is_given())
+    return begins("valve.") || begins("hose.") || begins("gas.") || path == "muscle.dead_volume";
+  return data.valve_pressure_is_given() && begins("valve.");
 }
 
 namespace {
@@ -92,13 +105,14 @@ constexpr bool is_of_a_muscle() {
 
 /// What data can show of the catalogue. Of a pair, `gauge` is that of muscle 1.
 struct Sight {
-  bool makes_pressure = true, load_guide = true, gauge = true, opposite_gauge = false, pair = false;
+  std::vector<plant::Hook> hidden{};
+  bool load_guide = true, gauge = true, opposite_gauge = false, pair = false;
 };
 
 std::vector<Candidate> in_sight(const Sight& sight) {
   std::vector<Candidate> list;
   const auto add = [&]<class E>(const E& effect) {
-    if (!sight.makes_pressure && makes_pressure<E>()) return;
+    if (is_hidden<E>(sight.hidden)) return;
     if (!sight.load_guide && std::is_same_v<E, plant::GuideFriction>) return;
     const bool of_gauge = plant::declares<E>(plant::Hook::gauge);
     for (const plant::Variant& law : E::variants) {
@@ -135,17 +149,18 @@ std::vector<Candidate> catalogue(const Rig& rig) {
 }
 std::vector<Candidate> catalogue(const domain::Dataset& data) {
   const bool given = data.pressure_is_given();
+  const std::vector<plant::Hook> hooks = hidden(data);
   const auto read = [&](const auto& gauge) {
     return std::ranges::any_of(data.runs, [&](const domain::Run& run) { return (run.*gauge).has_value(); });
   };
   const bool pair = data.rig.pair() != nullptr;
-  std::vector<Candidate> list = in_sight({.makes_pressure = !given,
+  std::vector<Candidate> list = in_sight({.hidden = hooks,
                                           .load_guide = !pair,
                                           .gauge = given || read(&domain::Run::muscle_pressure_Pa),
                                           .opposite_gauge = given || read(&domain::Run::opposite_pressure_Pa),
                                           .pair = pair});
   for (const auto& law : data.rig.effects.laws.list)
-    if (!given || !makes_pressure(*law.text)) list.push_back(candidate_of(*law.text));
+    if (!is_hidden(*law.text, hooks)) list.push_back(candidate_of(*law.text));
   return list;
 }
 

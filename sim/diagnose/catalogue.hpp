@@ -13,13 +13,14 @@ namespace mckibben::diagnose {
 std::vector<Candidate> catalogue();
 /// The same, and the rig's laws of the user's own.
 std::vector<Candidate> catalogue(const Rig& rig);
-/// What these data can show of both: where the muscle's pressure is given, without what acts on valve,
-/// supply, hose and gas alone, of a pair without the guide of a load, without a gauge no errors of one. Of a
-/// pair, what may be of one muscle alone stands there for both, for muscle 1 and for muscle 2.
+/// What these data can show of both: without what acts on nothing that they show, of a pair without the guide
+/// of a load, without a gauge no errors of one. Of a pair, what may be of one muscle alone stands there for
+/// both, for muscle 1 and for muscle 2.
 std::vector<Candidate> catalogue(const domain::Dataset& data);
 
-/// Effects of the catalogue, and parameters, that a given pressure leaves nothing to see of.
-std::vector<std::string> effects_out_of_sight();
-bool out_of_sight(const Parameter& parameter);
+/// Effects of the catalogue, and parameters, that data leave nothing to see of: upstream of a pressure that
+/// is given, on a position that was not read.
+std::vector<std::string> effects_out_of_sight(const domain::Dataset& data);
+bool out_of_sight(const domain::Dataset& data, const Parameter& parameter);
 
 }  // namespace mckibben::diagnose

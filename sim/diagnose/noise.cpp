@@ -231,6 +231,12 @@ struct Sheet {
   double step = 0.0, noise = 0.0, accuracy = 0.0;
 };
 Sheet sheet_of(const domain::Dataset& data) {
+  if (data.judged() == domain::Judged::pressure) {
+    const bool valve = !data.runs.front().muscle_pressure_Pa && !data.runs.front().opposite_pressure_Pa;
+    const plant::Sensor* gauge =
+        data.rig.sensors.of(valve ? plant::Sensed::valve_pressure : plant::Sensed::muscle_pressure);
+    return gauge != nullptr ? Sheet{gauge->resolution, gauge->noise, gauge->accuracy} : Sheet{};
+  }
   if (data.judged() == domain::Judged::force) {
     const plant::Sensor* cell = data.rig.sensors.of(plant::Sensed::force);
     return cell != nullptr ? Sheet{cell->resolution, cell->noise, cell->accuracy} : Sheet{};
@@ -263,6 +269,8 @@ Least least_of(const domain::Dataset& data) {
       const double turn_rad = data.rig.muscle.rest_length_m / data.rig.joint.wheel_radius_m;
       return {tolerance * turn_rad, assumed.least_ratio * turn_rad};
     }
+    case domain::Judged::pressure:
+      return {tolerance * data.rig.valve.span_pressure_Pa, assumed.least_pressure_Pa};
     case domain::Judged::contraction:
       break;
   }

@@ -22,6 +22,7 @@ class Prediction final : public run::Follower {
                  std::move(disturbance)),
         pair_(rigs.front().rig.pair() != nullptr),
         forces_(run.length_is_given()),
+        gauge_(run.judged_gauge()),
         force_beside_(run.beside(domain::Beside::force) != nullptr),
         valve_beside_(run.valve_pressure_Pa.has_value()),
         opposite_valve_beside_(run.opposite_valve_pressure_Pa.has_value()),
@@ -44,8 +45,9 @@ class Prediction final : public run::Follower {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const ride::Rider& rider = all[i];
       const ride::Reading& seen = rider.now.reading;
-      readings_[i].judged.push_back(forces_ ? rider.moment().cord_force_N()
-                                            : seen.wheel_m / travel_m(rider.plant().rig()));
+      readings_[i].judged.push_back(gauge_    ? pressure_Pa(seen, *gauge_)
+                                    : forces_ ? rider.moment().cord_force_N()
+                                              : seen.wheel_m / travel_m(rider.plant().rig()));
       readings_[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
       if (force_beside_) readings_[i].force_N.push_back(std::max(rider.moment().cord_force_N(), 0.0));
       if (pair_) readings_[i].opposite_pressure_Pa.push_back(seen.opposite_pressure_Pa);
@@ -56,6 +58,13 @@ class Prediction final : public run::Follower {
     readings_[0].states.push_back(all[0].now.flow.state);
   }
 
+  static double pressure_Pa(const ride::Reading& seen, domain::Beside gauge) {
+    using enum domain::Beside;
+    if (gauge == valve_pressure) return seen.valve_pressure_Pa;
+    if (gauge == opposite_valve_pressure) return seen.opposite_valve_pressure_Pa;
+    return gauge == muscle_pressure ? seen.muscle_pressure_Pa : seen.opposite_pressure_Pa;
+  }
+
   /// Of the wheel's rim, for a reading of 1.
   double travel_m(const plant::Rig& rig) const {
     if (pair_) return rig.joint.wheel_radius_m;
@@ -64,6 +73,7 @@ class Prediction final : public run::Follower {
 
   bool pair_;                                                 // angles are read
   bool forces_;                                               // are read, at lengths that are given
+  std::optional<domain::Beside> gauge_;                       // that is judged, where only pressures are read
   bool force_beside_, valve_beside_, opposite_valve_beside_;  // of the cord, of valves are read besides
   double rest_length_m_;                                      // that readings go by; 0: each rig's own
   Done done_;

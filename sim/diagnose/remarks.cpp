@@ -16,6 +16,8 @@ std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloo
   switch (data.judged()) {
     case Judged::force:
       return fmt::format("force, {:.2g} N", floor.given);
+    case Judged::pressure:
+      return "pressure, " + data::amount_of(Judged::pressure, floor.given, data.rig);
     case Judged::angle:
       return fmt::format("joint, {}", data::amount_of(Judged::angle, floor.given, data.rig));
     case Judged::contraction:
@@ -84,16 +86,25 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         "the muscle's length is the input: what acts on the load, on its guide or on the encoder is out of "
         "sight, "
         "and runs are not looked through for faults of a recorder");
-  const bool pair = data.judged() == Judged::angle;
+  if (data.judged() == Judged::pressure)
+    words.push_back(
+        "only pressures were read: what acts on the load, and how the muscle pulls, are all but out of "
+        "sight");
+  const bool pair = data.rig.pair() != nullptr;
   if (pair)
     words.push_back(
         "two muscles turn the joint: effects are looked for on both alike and on each; runs are not looked "
         "through for faults of a recorder, no further measurement is planned, and a load's guide there is "
         "none");
   if (data.pressure_is_given())
+    words.push_back(fmt::format(
+        "the muscle{} the input: valve, supply, hose and gas are out of sight, and with them {}",
+        pair ? "s' pressures are" : "'s pressure is", fmt::join(effects_out_of_sight(data), ", ")));
+  if (data.valve_pressure_is_given())
     words.push_back(
-        fmt::format("the muscle{} the input: valve, supply, hose and gas are out of sight, and with them {}",
-                    pair ? "s' pressures are" : "'s pressure is", fmt::join(effects_out_of_sight(), ", ")));
+        fmt::format("the valve's pressure is the input: valve and supply are out of sight, and "
+                    "with them {}",
+                    fmt::join(effects_out_of_sight(data), ", ")));
   return words;
 }
 

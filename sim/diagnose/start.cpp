@@ -31,8 +31,8 @@ Start look_at_start(const Experiment& experiment, const Rig& corrected, const Ru
   start.lasting_s =
       std::min(of_start.longest_s, of_start.share_of_run * static_cast<double>(longest) * tick_s);
   const auto first = static_cast<Eigen::Index>(std::lround(start.lasting_s / tick_s));
-  const double limit =
-      of_start.counts * data::reading_grain(corrected) + of_start.jitters * experiment.floor().jitter;
+  const double limit = of_start.counts * data::reading_grain(experiment.data().judged(), corrected) +
+                       of_start.jitters * experiment.floor().jitter;
   double early = 0.0, all = 0.0, early_rows = 0.0, all_rows = 0.0;
   const auto simulated = experiment.readings(corrected, runs);
   for (std::size_t i = 0; i < runs.size(); ++i) {

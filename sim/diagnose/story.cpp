@@ -56,6 +56,8 @@ std::string what_is_judged(const Diagnosis& d) {
       return "the cord's force";
     case Judged::angle:
       return "the joint's angle";
+    case Judged::pressure:
+      return "the pressure";
     case Judged::contraction:
       break;
   }

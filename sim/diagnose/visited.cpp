@@ -41,7 +41,7 @@ std::string visited_by_pair(const domain::Dataset& data, const Runs& runs) {
 }  // namespace
 
 std::string visited(const domain::Dataset& data, const Runs& runs) {
-  if (data.judged() == Judged::angle) return visited_by_pair(data, runs);
+  if (data.rig.pair() != nullptr) return visited_by_pair(data, runs);
   Range current_mA, load_kg, ratio, pressure_bar;
   for (const std::size_t run : runs) {
     for (const double value : data.runs[run].current_mA) current_mA.see(value);

@@ -170,7 +170,7 @@ std::vector<Factor> by_muscle(const Experiment& experiment, const Rig& rig, cons
   std::vector<Factor> factors;
   factors.push_back(by_direction("contracting", "relaxing", cells_by.rest_mm_per_s));
   factors.push_back(by_speed(cells_by.speeds_mm_per_s, "mm/s"));
-  if (!experiment.data().force_is_judged()) factors.push_back(by_load(experiment, runs));
+  if (!experiment.data().lengths_are_given()) factors.push_back(by_load(experiment, runs));
   factors.push_back(by_pressure("pressure", rig.valve, &Row::pressure_Pa));
   factors.push_back(
       binned("contraction",

@@ -32,6 +32,10 @@ struct Said {
     return !map[own(key)].absent() && map[own(key)].as == Role::ignored;
   }
   GivenPressure pressure() const { return map.given_pressure(pair() ? muscle : 0); }
+  bool reads_a_pressure() const {
+    return (has("muscle_pressure") && !gives("muscle_pressure")) ||
+           (has("valve_pressure") && !gives("valve_pressure"));
+  }
   bool hangs() const { return rig.lifts_a_load() && !gives("contraction"); }
   bool has_load() const { return run.given_load_kg.has_value(); }
   bool points() const { return !map.settled.absent(); }
@@ -59,7 +63,10 @@ constexpr auto rules = std::to_array<Rule>({
        return !s.pair() && s.has("command") && !s.map["current"].absent() && !s.map[command_key].absent();
      },
      "current is a command in mA; give one of the two"},
-    {"contraction", [](const Said& s) { return s.rig.holds_a_length() && !s.gives("contraction"); },
+    {"contraction",
+     [](const Said& s) {
+       return s.rig.holds_a_length() && !s.gives("contraction") && (s.has("force") || !s.reads_a_pressure());
+     },
      "the rig's muscle is held (mechanics: {kind: held_length}): say which length, as: input"},
     {"joint_force", [](const Said& s) { return s.gives("contraction") && s.gives("joint_force"); },
      "the muscle's length is the input, so that a force from outside moves nothing; say as: ignored"},
@@ -133,7 +140,7 @@ constexpr auto needs = std::to_array<Need>({
      [](const Run& run, Judged judged) {
        return judged == Judged::force && !is_read(run.measured->read("force"));
      },
-     "the muscle's length is given, and force is not read"},
+     "the muscle's length is given, and neither force nor pressure is read"},
     {Purpose::judging,
      [](const Run& run, Judged judged) {
        return judged == Judged::angle && !is_read(run.measured->read("angle"));
@@ -144,13 +151,6 @@ constexpr auto needs = std::to_array<Need>({
        return judged == Judged::angle && run.measured->given_pressure(1) != run.measured->given_pressure(2);
      },
      "the pressure of one muscle is given, and that of the other is not"},
-    {Purpose::diagnosis,
-     [](const Run& run, Judged) {
-       return run.measured->gives("valve_pressure", 1) || run.measured->gives("valve_pressure", 2);
-     },
-     "the valve's pressure is given"},
-    {Purpose::diagnosis, [](const Run& run, Judged) { return run.measured->gives_outer_force(); },
-     "a force from outside is given"},
     {Purpose::calibration,
      [](const Run& run, Judged judged) {
        return judged != Judged::contraction || gives_a_pressure(run) || run.measured->gives_outer_force();

@@ -20,9 +20,8 @@ struct Contradiction {
 /// Of what the files say of a run.
 std::vector<Contradiction> contradictions(const Dataset& data, const Run& run);
 
-/// What a judgement by `Dataset::judged` needs; a diagnosis, and a calibration with rows made of stamps, need
-/// more.
-enum class Purpose { judging, diagnosis, calibration };
+/// What a judgement by `Dataset::judged` needs; a calibration with rows made of stamps needs more.
+enum class Purpose { judging, calibration };
 /// The first run as it was read that cannot serve it, in place of a key, and why; none if all can.
 std::optional<Contradiction> why_not(Purpose purpose, const Dataset& data);
 

@@ -18,12 +18,13 @@
 namespace mckibben::domain {
 
 /// The reading that models are judged by: contraction ratio; force [N] at lengths that a bench gives; joint
-/// angle [rad] of a pair.
-enum class Judged { contraction, force, angle };
+/// angle [rad] of a pair; a pressure [Pa] where nothing but pressures was read.
+enum class Judged { contraction, force, angle, pressure };
 constexpr auto names(Judged) {
   using enum Judged;
   return std::array{std::pair{contraction, std::string_view{"contraction"}},
-                    std::pair{force, std::string_view{"force"}}, std::pair{angle, std::string_view{"angle"}}};
+                    std::pair{force, std::string_view{"force"}}, std::pair{angle, std::string_view{"angle"}},
+                    std::pair{pressure, std::string_view{"pressure"}}};
 }
 
 /// What may have been read beside it, in the order in which it is reported; of a pair the opposite ones too.
@@ -71,17 +72,27 @@ struct Run {
   /// The reading that a model is judged by.
   Judged kind_of_judged() const {
     if (!angle_rad.empty()) return Judged::angle;
+    if (reads_only_pressures()) return Judged::pressure;
     return length_is_given() ? Judged::force : Judged::contraction;
   }
-  const std::vector<double>& judged() const {
+  const std::vector<double>& judged() const { return const_cast<Run*>(this)->judged(); }
+  std::vector<double>& judged() {
+    if (const auto gauge_of = judged_gauge()) return *gauge(*gauge_of);
     const Judged kind = kind_of_judged();
     return kind == Judged::angle ? angle_rad : kind == Judged::force ? force_N : contraction_ratio;
+  }
+  /// Of rows: the gauge that is judged, the first there is, where nothing but pressures was read.
+  std::optional<Beside> judged_gauge() const {
+    if (kind_of_judged() != Judged::pressure) return std::nullopt;
+    for (const Beside which : besides)
+      if (which != Beside::force && const_cast<Run*>(this)->gauge(which)) return which;
+    return std::nullopt;
   }
   /// What was read beside it; null if it was not.
   const std::vector<double>* beside(Beside which) const {
     if (which == Beside::force) return force_N.empty() || length_is_given() ? nullptr : &force_N;
     const auto& read = const_cast<Run*>(this)->gauge(which);
-    return read ? &*read : nullptr;
+    return read && which != judged_gauge() ? &*read : nullptr;
   }
   std::optional<std::vector<double>>& gauge(Beside which) {
     if (which == Beside::muscle_pressure) return muscle_pressure_Pa;
@@ -93,6 +104,13 @@ struct Run {
     return !rows.empty() && rows[row];
   }
   bool length_is_given() const { return measured && measured->gives_length(); }
+  bool reads_only_pressures() const {
+    if (!contraction_ratio.empty() || !force_N.empty() || !angle_rad.empty()) return false;
+    const bool of_rows = std::ranges::any_of(besides, [&](Beside which) {
+      return which != Beside::force && const_cast<Run*>(this)->gauge(which);
+    });
+    return of_rows || (measured && measured->reads_only_pressures());
+  }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -137,23 +155,29 @@ struct Dataset {
   std::vector<Run> runs;
   bool own_clock = false;  ///< runs are `measured`, stamp by stamp
   std::optional<Rows> rows_of_stamps;
+  bool parts_of_a_run = false;       ///< the runs are parts of one that was recorded
   std::vector<std::string> remarks;  ///< how tables were read, where it could be done in another way
 
   double row_s() const { return rows_of_stamps ? rows_of_stamps->row_s : rig.tick_s; }
   double readings_in_a_row() const { return rows_of_stamps ? rows_of_stamps->readings : 1.0; }
   double rows_begin_s() const { return rows_of_stamps ? recorded.skip_s : 0.0; }
-  /// A bench gives every run its length, and what is judged is the force.
-  bool force_is_judged() const { return !runs.empty() && std::ranges::all_of(runs, &Run::length_is_given); }
   Judged judged() const {
+    if (!runs.empty() && std::ranges::all_of(runs, &Run::reads_only_pressures)) return Judged::pressure;
     if (rig.pair() != nullptr) return Judged::angle;
-    return force_is_judged() ? Judged::force : Judged::contraction;
+    return lengths_are_given() ? Judged::force : Judged::contraction;
   }
+  /// A bench gives every run its length, and what is judged is the force,
+  bool force_is_judged() const { return judged() == Judged::force; }
+  /// or a pressure.
+  bool lengths_are_given() const { return !runs.empty() && std::ranges::all_of(runs, &Run::length_is_given); }
   /// No run has a valve: the pressure is given, of a pair both are.
-  bool pressure_is_given() const {
-    const bool pair = rig.pair() != nullptr;
+  bool pressure_is_given() const { return gives_pressure(plant::GivenPressure::muscle); }
+  /// The pressure in the valve is, so that valve and supply do not matter.
+  bool valve_pressure_is_given() const { return gives_pressure(plant::GivenPressure::valve); }
+  bool gives_pressure(plant::GivenPressure which) const {
     return std::ranges::all_of(runs, [&](const Run& run) {
-      return run.measured && run.measured->gives("muscle_pressure") &&
-             (!pair || run.measured->gives("muscle_pressure", 2));
+      return run.measured && run.measured->given_pressure() == which &&
+             (rig.pair() == nullptr || run.measured->given_pressure(2) == which);
     });
   }
 

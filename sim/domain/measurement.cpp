@@ -45,6 +45,16 @@ const std::vector<double>& Measurement::values(std::string_view key, std::size_t
   return at != columns.end() ? at->values : nothing;
 }
 
+bool Measurement::reads_only_pressures() const {
+  bool any = false;
+  for (const MeasuredColumn& column : columns)
+    if (!column.given && is_read(column.values)) {
+      if (!column.is_pressure()) return false;
+      any = true;
+    }
+  return any;
+}
+
 std::vector<double>& Measurement::give(std::string_view key, std::size_t muscle) {
   return column_of(*this, key, muscle, true);
 }

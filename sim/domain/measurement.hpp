@@ -86,6 +86,7 @@ struct Measurement {
   bool gives_length() const { return gives("contraction"); }
   /// What of a muscle's pressure there is upstream of it: its own, that of its valve, or none.
   plant::GivenPressure given_pressure(std::size_t muscle = 1) const;
+  bool reads_only_pressures() const;
   bool gives_outer_force() const { return gives("joint_force") || gives("joint_torque"); }
 };
 

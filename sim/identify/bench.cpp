@@ -194,14 +194,17 @@ class FaultReport {
   }
 
   std::string unit_of_reading() const {
-    return data_.judged() == domain::Judged::angle   ? "rad"
-           : data_.judged() == domain::Judged::force ? "N"
-                                                     : "1";
+    return data_.judged() == domain::Judged::angle      ? "rad"
+           : data_.judged() == domain::Judged::force    ? "N"
+           : data_.judged() == domain::Judged::pressure ? "Pa"
+                                                        : "1";
   }
 
   /// A run's own place for the judged reading, with what is off taken out.
   std::string column_line(const domain::Run& of, double zero, double factor, double deviation) const {
-    const std::string key(plant::name_of(data_.judged()));
+    const auto gauge = of.judged_gauge();
+    const std::string key = gauge ? data::told(*gauge, data_.rig.pair() != nullptr).first
+                                  : std::string(plant::name_of(data_.judged()));
     domain::ColumnPlace place = of.columns[key];
     if (place.absent()) place = data_.columns[key];
     const auto judged_by = [&](double per_unit) {
@@ -232,18 +235,6 @@ class FaultReport {
   std::vector<BenchFault> list_;
 };
 
-std::vector<double>& judged_of(domain::Run& run) {
-  switch (run.kind_of_judged()) {
-    case domain::Judged::angle:
-      return run.angle_rad;
-    case domain::Judged::force:
-      return run.force_N;
-    case domain::Judged::contraction:
-      break;
-  }
-  return run.contraction_ratio;
-}
-
 }  // namespace
 
 std::vector<BenchFault> bench_faults(const Model& model, const Estimates& estimates) {
@@ -257,7 +248,7 @@ domain::Dataset without_faults(const Model& model) {
   for (std::size_t i = 0; i < rows.runs.size(); ++i) {
     domain::Run& run = data.runs[rows.runs[i]];
     run.load_kg = bench.load_kg(run.load_kg, i);
-    std::vector<double>& read = judged_of(run);
+    std::vector<double>& read = run.judged();
     double zero = bench.zero, gain = 0.0, drift_per_s = 0.0, late_s = 0.0;
     for (std::size_t place = 0; place < model.point.differ.size(); ++place) {
       const double own = each_run(model, place).values[i];

@@ -199,7 +199,7 @@ class HandingOver {
 
   /// What would separate the chosen model from the best that does as well.
   void plan_next() {
-    if (data_.pressure_is_given() || data_.judged() != domain::Judged::contraction)
+    if (data_.runs.front().current_mA.empty() || data_.judged() != domain::Judged::contraction)
       return;  // no currents, loads
     const Model* rival = doubt(found_);
     if (rival == nullptr || chosen().general || found_.ended != Ended::no) return;

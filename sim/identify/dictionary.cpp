@@ -110,7 +110,7 @@ Point Point::without(std::size_t place) const {
 
 Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : described_(data.rig) {
   for (diagnose::Parameter& p : diagnose::nominal_parameters(data.rig, data.rig.spreads)) {
-    if (data.pressure_is_given() && diagnose::out_of_sight(p)) continue;
+    if (diagnose::out_of_sight(data, p)) continue;
     const diagnose::Found found = diagnose::find(described_, p.path);
     p.lowest = found.lowest;
     p.highest = found.highest;
@@ -150,6 +150,7 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
     for (const double read : run.judged()) reach = std::max(reach, std::abs(read));
   reach_m = reach * rest_length_m;
   if (data.judged() != domain::Judged::contraction) reach_m = 0.3 * rest_length_m;
+  forces_show = data.judged() != domain::Judged::pressure;
 }
 
 std::size_t Dictionary::count_of_terms(Terms terms) const {

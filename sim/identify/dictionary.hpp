@@ -167,6 +167,7 @@ class Dictionary {
   std::vector<Entry> entries;
   std::size_t all_names = 0;  ///< of which sets are made
   double reach_m = 0.0;       ///< how far the load was seen to rise
+  bool forces_show = true;    ///< in what was read: general terms are forces
 
  private:
   void put_terms(const Point& point, plant::Rig& rig) const;

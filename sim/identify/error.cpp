@@ -90,9 +90,12 @@ Eigen::VectorXd Error::started(const Block& block, const Eigen::VectorXd& start)
 
 namespace {
 
-double typical_log(int which, double rest_length_m) {
+double typical_log(int which, const domain::Dataset& data) {
+  // A gauge is off by 20 mbar as easily as an encoder by a millimetre.
+  const double of_a_metre =
+      data.judged() == domain::Judged::pressure ? 2e6 : 1.0 / data.rig.muscle.rest_length_m;
   const Differing& one = differing.at(static_cast<std::size_t>(which));
-  return std::log(which == zeros || which == drifts ? one.typical / rest_length_m : one.typical);
+  return std::log(which == zeros || which == drifts ? one.typical * of_a_metre : one.typical);
 }
 
 }  // namespace
@@ -102,10 +105,9 @@ Error Error::with(const std::vector<int>& differ) const {
   Error other = *this;
   other.logs_.resize(base());
   other.start_.resize(base());
-  const double rest_m = rows_->data().rig.muscle.rest_length_m;
   for (const int which : differ) {
     const auto known = std::ranges::find(differ_, which);
-    other.start_.push_back(typical_log(which, rest_m));
+    other.start_.push_back(typical_log(which, rows_->data()));
     other.logs_.push_back(known == differ_.end()
                               ? other.start_.back()
                               : logs_[base() + static_cast<std::size_t>(known - differ_.begin())]);

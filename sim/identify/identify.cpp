@@ -94,6 +94,7 @@ Model Search::refined(Point point, double term_N) {
 double Search::gain_of_terms(const Model& base) const {
   const Eigen::VectorXd left = base.residual(), of_rig = base.variance();
   double best = 0.0;
+  if (!dictionary_.forces_show) return best;
   for (const Terms terms : families) {
     const Eigen::MatrixXd columns = columns_of(base, terms);
     Eigen::MatrixXd both(left.size(), base.slopes.cols() + columns.cols());
@@ -131,6 +132,7 @@ void Search::describe_bench() {
 /// Is it a law outside the catalogue? Of families of terms, as straight lines; then of the few of them that
 /// promise most, descended.
 void Search::try_terms() {
+  if (!dictionary_.forces_show) return;
   std::vector<Model> bases{*at_, table_.at({false, {}})};
   if (!dictionary_.names(here_->point).empty()) bases.push_back(*here_);
   std::optional<Few> one, several;

@@ -19,6 +19,7 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
   std::vector<Start> all =
       sets(problem_, base.error.with(point.differ), point, base.term_N, residual, slopes, columns, list, far);
   if (dictionary_.names(point).size() >= static_cast<std::size_t>(decisive.most_together)) return all;
+  if (problem_.rows.data().parts_of_a_run) return all;  // one sensor read them all
   const Eigen::VectorXd variance = Model(problem_, point, base.error, base.term_N).variance();
   for (int g = 0; g < static_cast<int>(differing.size()); ++g) {
     if (point.lets_differ(g)) continue;

@@ -179,7 +179,7 @@ std::string why_unfit(domain::Purpose purpose, const Dataset& dataset) {
 }
 
 void require_judged(const Dataset& dataset, std::string_view verb) {
-  if (const std::string why = why_unfit(domain::Purpose::diagnosis, dataset); !why.empty())
+  if (const std::string why = why_unfit(domain::Purpose::judging, dataset); !why.empty())
     throw BadInput({{Severity::error, dataset.path.string(), nowhere,
                      fmt::format("{} cannot take it yet: {}", verb, why), ""}});
 }

@@ -88,6 +88,8 @@ class Assembling {
     time();
     check_numbers(table_, map_, rig_, problems_);
     for (const Wish& wish : stamped_quantities(map_, rig_)) take(*wish.quantity);
+    if (rig_.holds_a_length() && !measured_.gives_length())  // only pressures are asked for: at rest length
+      measured_.give("contraction").assign(measured_.time_s.size(), 0.0);
     // What is judged first, pressures last.
     std::stable_partition(measured_.columns.begin(), measured_.columns.end(),
                           [](const auto& column) { return !column.is_pressure(); });

@@ -71,6 +71,8 @@ std::string gap(const Diagnosis& diagnosis, const plant::Rig& rig) {
         return fmt::format("{:.3f}", value);
       case diagnose::Judged::angle:
         return fmt::format("{:.4f}", value / plant::degree_rad);
+      case diagnose::Judged::pressure:
+        return fmt::format("{:.3f}", 1e3 * value / plant::Pa_per_bar);
       case diagnose::Judged::contraction:
         break;
     }

@@ -121,8 +121,15 @@ const JudgedWords& words_of(diagnose::Judged judged) {
             "angle of the joint",
             "it stood further towards muscle 1",
             "towards muscle 2",
-            "Angles are those of the joint, positive as muscle 1 contracts. "};
-  return judged == diagnose::Judged::force ? force : judged == diagnose::Judged::angle ? angle : contraction;
+            "Angles are those of the joint, positive as muscle 1 contracts. "},
+      pressure{"muscle_pressure", "Pa",
+               plant::Pa_per_bar, "pressures in mbar",
+               "pressure",        "it was higher",
+               "lower",           "Pressures are those that were read. "};
+  return judged == diagnose::Judged::force      ? force
+         : judged == diagnose::Judged::angle    ? angle
+         : judged == diagnose::Judged::pressure ? pressure
+                                                : contraction;
 }
 
 std::string amount(double value, diagnose::Judged judged, const plant::Rig& rig) {
@@ -131,6 +138,8 @@ std::string amount(double value, diagnose::Judged judged, const plant::Rig& rig)
       return three_digits(value) + " N";
     case diagnose::Judged::angle:
       return three_digits(value / plant::degree_rad) + " deg";
+    case diagnose::Judged::pressure:
+      return three_digits(1e3 * value / plant::Pa_per_bar) + " mbar";
     case diagnose::Judged::contraction:
       break;
   }

@@ -244,6 +244,8 @@ std::string errors_svg(const std::vector<const diagnose::RunGap*>& runs, const d
     svg += either(grid(length_mm(rig), " mm"), grid(1.0, ""), "g");
   else if (gap.judged == diagnose::Judged::force)
     svg += grid(1.0, " N");
+  else if (gap.judged == diagnose::Judged::pressure)
+    svg += grid(1e3 / plant::Pa_per_bar, " mbar");
   else
     svg += grid(1.0 / plant::degree_rad, " deg");
   if (noise_floor > 0.0) {

@@ -64,9 +64,11 @@ auto by_id(const Runs& runs, const std::string& id) {
 /// Whether a page draws this of a model beside the reading that was judged.
 bool is_shown(const std::string& key, diagnose::Judged judged) {
   if (judged == diagnose::Judged::angle) return key != "angle";
+  const bool pressure = judged == diagnose::Judged::pressure;
+  if (pressure && key == "muscle_pressure") return false;
   constexpr std::array<std::string_view, 5> wanted{"valve_pressure", "muscle_pressure", "braid_force",
                                                    "friction_force", "effects_pull"};
-  return (judged == diagnose::Judged::force && key == "contraction_ratio") ||
+  return ((judged == diagnose::Judged::force || pressure) && key == "contraction_ratio") ||
          std::find(wanted.begin(), wanted.end(), key) != wanted.end();
 }
 
@@ -92,7 +94,7 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
     run.quantities.push_back(
         {"force_error", [force_N, pull_N](std::size_t k) { return (*force_N)[k] - pull_N(k); }});
   }
-  if (recorded->muscle_pressure_Pa)
+  if (recorded->beside(domain::Beside::muscle_pressure) != nullptr)
     run.quantities.push_back(
         {"muscle_pressure_error", [replayed, recorded, effects = rig.effects](std::size_t k) {
            const double true_Pa = replayed->recording.samples[k].state.side.muscle_pressure_Pa;
@@ -118,7 +120,7 @@ void add_given(Group& group, const domain::Run& recorded, const plant::Rig& rig)
 Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
                const ReplayedRun* nominal, const ReplayedRun* corrected) {
   const diagnose::Judged judged = data.judged();
-  const bool hangs = judged == diagnose::Judged::contraction, pair = judged == diagnose::Judged::angle;
+  const bool hangs = judged == diagnose::Judged::contraction, pair = data.rig.pair() != nullptr;
   const output::JudgedWords& of = output::words_of(judged);
   const bool changed = output::changed(diagnosis);
   Group group{.name = fmt::format("{}{}{}", gap.id, hangs ? ", " + output::mass(gap.load_kg) : "",
@@ -161,8 +163,9 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
 
 /// What is judged and its error, then what made it.
 std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis) {
-  const bool bench = data.judged() == diagnose::Judged::force,
-             pair = data.judged() == diagnose::Judged::angle;
+  const diagnose::Judged judged = data.judged();
+  const bool bench = data.lengths_are_given(), pair = data.rig.pair() != nullptr,
+             height = judged == diagnose::Judged::contraction;
   const output::JudgedWords& of = output::words_of(data.judged());
   const double floor = diagnosis.gap.noise_floor / of.size;
   const std::string error = "Error: measured less model";
@@ -171,13 +174,14 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
       diagnosis.corrected,
       {.driven = {.pair = pair, .length = bench},
        .key = of.signal,
-       .title = fmt::format("{}, measured and by each rig", bench  ? "Force"
+       .title = fmt::format("{}, measured and by each rig", judged == diagnose::Judged::pressure ? "Pressure"
+                                                            : bench                              ? "Force"
                                                             : pair ? "Joint angle"
                                                                    : "Contraction"),
        .given = "Measured",
-       .error = bench || pair ? error
-                              : fmt::format("{}, as height of the load{}", error,
-                                            floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
+       .error = !height ? error
+                        : fmt::format("{}, as height of the load{}", error,
+                                      floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
        .commands = !data.pressure_is_given(),
        .pressure = gauged(data),
        .force = !bench && std::ranges::any_of(data.runs, cell),
@@ -192,7 +196,11 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
 }
 
 std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
-  if (data.judged() == diagnose::Judged::angle) return loops_of({.pair = true});
+  if (data.rig.pair() != nullptr) return loops_of({.pair = true});
+  if (data.judged() == diagnose::Judged::pressure)
+    return {{"asked", "Pressure and commanded pressure", "reference_pressure", "muscle_pressure",
+             "commanded pressure in bar", "pressure in bar", false, "reference_pressure",
+             "given_muscle_pressure"}};
   if (data.force_is_judged())
     return {{"force", "Force and pressure", "muscle_pressure", "force", "muscle pressure in bar",
              "force in N", false, "muscle_pressure", "given_force"}};
@@ -209,7 +217,7 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
   const auto measured_only = diagnosis.runs.empty() ? as_described(data, nominal) : std::vector<RunGap>{};
   const auto runs =
       ordered(diagnosis.runs.empty() ? measured_only : diagnosis.runs, output::changed(diagnosis));
-  const bool pair = data.judged() == diagnose::Judged::angle;
+  const bool pair = data.rig.pair() != nullptr;
   Contents contents{
       .title = "Diagnosis of " + output::name_of(data),
       .about = fmt::format("{} run{}, {}", data.runs.size(), data.runs.size() == 1 ? "" : "s",

@@ -183,7 +183,7 @@ std::string loop_and_rig(const domain::Dataset& data, const Diagnosis& diagnosis
   const std::size_t more = found.size() - std::min(found.size(), most_told);
   found.resize(found.size() - more, {});
   double y = 22.0;
-  if (data.judged() != diagnose::Judged::angle) {  // the drawing is of one muscle
+  if (data.rig.pair() == nullptr) {  // the drawing is of one muscle
     std::vector<Part> marks;
     marks.reserve(found.size());
     for (const Found& one : found) marks.push_back(one.part);

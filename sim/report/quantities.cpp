@@ -108,17 +108,25 @@ std::vector<Quantity> quantities_of(const run::Recording& recording, const plant
 }
 
 std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
-  const bool pair = of.driven.pair, about_force = of.key == "force";
+  const bool pair = of.driven.pair, about_force = of.key == "force",
+             about_pressure = of.key == "muscle_pressure";
   const std::string at = position(pair);
-  const char* label = of.key == "angle" ? "angle" : about_force ? "force" : "contraction";
-  Plot first = plot_of(about_force ? "force" : pair ? "angle" : "height", of.title, of.key, {});
+  const char* label = of.key == "angle" ? "angle"
+                      : about_force     ? "force"
+                      : about_pressure  ? "pressure"
+                                        : "contraction";
+  Plot first = plot_of(about_force || about_pressure ? label
+                       : pair                        ? "angle"
+                                                     : "height",
+                       of.title, of.key, {});
   if (!of.given.empty()) first.lines.push_back({.key = "given_" + of.key, .label = of.given, .given = true});
   first.lines.push_back({.key = of.key, .label = label, .main = true});
   first.still = true;
   std::vector<Plot> plots{std::move(first)};
   if (!of.error.empty()) plots.push_back(error_of("error", of.error, of.key));
-  if (about_force)
-    plots.push_back(plot_of("height", "Contraction, as given", at, lines_of(false, at, "contraction")));
+  if (about_force || (about_pressure && !pair))
+    plots.push_back(plot_of("height", about_force ? "Contraction, as given" : "Contraction", at,
+                            lines_of(false, at, "contraction")));
   if (of.force) {
     plots.push_back(plot_of("force", "Force of the cord", "force",
                             {{.key = "given_force", .label = "measured", .given = true},

@@ -30,15 +30,16 @@ std::vector<Column> rows_of(const domain::Run& run, bool pair) {
     if (values != nullptr && !values->empty())
       all.push_back({{&plant::signal_of(signal), muscle}, values, &missing});
   };
+  const auto gauge = run.judged_gauge();
   if (!run.length_is_given()) add("contraction_ratio", 0, &run.contraction_ratio, run.missing);
   add("angle", 0, &run.angle_rad, run.missing);
-  if (run.length_is_given()) add("force", 0, &run.force_N, run.missing);
+  if (run.length_is_given() && !gauge) add("force", 0, &run.force_N, run.missing);
   using enum domain::Beside;
   for (const domain::Beside which :
        {force, muscle_pressure, opposite_pressure, valve_pressure, opposite_valve_pressure}) {
     const plant::Channel channel = domain::channel_of(which, pair);
-    add(channel.signal->key, channel.muscle, run.beside(which),
-        run.missing_beside[static_cast<std::size_t>(which)]);
+    add(channel.signal->key, channel.muscle, which == gauge ? &run.judged() : run.beside(which),
+        which == gauge ? run.missing : run.missing_beside[static_cast<std::size_t>(which)]);
   }
   return all;
 }
@@ -51,7 +52,7 @@ std::vector<Column> stamps_of(const domain::Measurement& measured) {
 }
 
 bool has_rows(const domain::Run& run) {
-  return !run.measured || !run.contraction_ratio.empty() || !run.angle_rad.empty() || !run.force_N.empty();
+  return !run.measured || !run.time_s.empty();
 }
 
 }  // namespace

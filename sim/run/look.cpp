@@ -19,17 +19,6 @@
 namespace mckibben::run {
 namespace {
 
-domain::Run beginning_of(domain::Run run, std::size_t rows) {
-  if (rows >= run.judged().size()) return run;
-  for (auto* column : {&run.current_mA, &run.contraction_ratio, &run.force_N, &run.angle_rad})
-    if (!column->empty()) column->resize(rows);
-  for (const domain::Beside which : domain::besides)
-    if (which != domain::Beside::force && run.gauge(which)) run.gauge(which)->resize(rows);
-  if (!run.missing.empty()) run.missing.resize(rows);
-  if (run.measured) run.measured->rows.resize(rows);
-  return run;
-}
-
 /// Sum of the squared differences between measured and simulated; infinite if a run was not simulated.
 double squares(const domain::Dataset& data, const std::vector<data::Expected>& expected) {
   double sum = 0.0;
@@ -71,6 +60,13 @@ void ask_absolute(domain::Dataset data, double squares_as_said, std::vector<data
                       .severity = data::Severity::doubtful});
 }
 
+double pressure_Pa(const Sample& sample, domain::Beside gauge) {
+  const plant::Channel channel = domain::channel_of(gauge, true);
+  const auto& side = sample.side_state(channel.muscle);
+  return std::ranges::find(domain::gauges, gauge) != domain::gauges.end() ? side.muscle_pressure_Pa
+                                                                          : side.valve_pressure_Pa;
+}
+
 }  // namespace
 
 std::vector<data::Expected> expected_of(const domain::Dataset& data,
@@ -80,19 +76,19 @@ std::vector<data::Expected> expected_of(const domain::Dataset& data,
   for (std::size_t i = 0; i < list.size(); ++i) {
     const domain::Run& run = data.runs[i];
     const double longer = run.rest_length_m > 0.0 ? data.rig.muscle.rest_length_m / run.rest_length_m : 1.0;
+    const domain::Judged judged = run.kind_of_judged();
+    const auto gauge = run.judged_gauge();
     for (const Sample& sample : replayed[i].recording.samples) {
-      list[i].judged.push_back(run.kind_of_judged() == domain::Judged::angle ? sample.angle_rad
-                               : run.kind_of_judged() == domain::Judged::force
-                                   ? sample.cord_force_N
-                                   : sample.shown_ratio() * longer);
+      list[i].judged.push_back(gauge                             ? pressure_Pa(sample, *gauge)
+                               : judged == domain::Judged::angle ? sample.angle_rad
+                               : judged == domain::Judged::force ? sample.cord_force_N
+                                                                 : sample.shown_ratio() * longer);
       list[i].pressure_Pa.push_back(sample.state.side.muscle_pressure_Pa);
       if (pair) list[i].opposite_pressure_Pa.push_back(sample.state.opposite.muscle_pressure_Pa);
       if (run.beside(domain::Beside::force) != nullptr)
         list[i].force_N.push_back(std::max(sample.cord_force_N, 0.0));
       for (const domain::Beside which : domain::valve_gauges)
-        if (run.beside(which) != nullptr)
-          list[i].beside(which).push_back(
-              sample.side_state(domain::channel_of(which, true).muscle).valve_pressure_Pa);
+        if (run.beside(which) != nullptr) list[i].beside(which).push_back(pressure_Pa(sample, which));
     }
   }
   return list;
@@ -107,7 +103,9 @@ void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>
   double fastest = 0.0;
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < replayed.size(); ++i) {
-    if (replayed[i].recording.samples.empty() || data.runs[i].length_is_given()) continue;
+    if (replayed[i].recording.samples.empty() || data.runs[i].length_is_given() ||
+        data.runs[i].reads_only_pressures())
+      continue;
     const Sample& first = replayed[i].recording.samples.front();
     const double speed =
         std::abs(pair ? first.angle_speed_rad_per_s : first.state.joint.contraction_speed_per_s);
@@ -142,7 +140,7 @@ Look look(domain::Dataset data) {
   const std::size_t step = rows / most_rows + 1;
   std::vector<domain::Run> runs = std::exchange(data.runs, {});
   for (std::size_t i = 0; i < runs.size(); i += step)
-    data.runs.push_back(beginning_of(std::move(runs[i]), most_rows_of_a_run));
+    data.runs.push_back(data::beginning_of(std::move(runs[i]), most_rows_of_a_run));
   const auto replayed = replay(data, 0, [](const auto&, auto, auto) {});
   if (interrupted()) throw Interrupted();
   const std::vector<data::Expected> expected = expected_of(data, replayed);

@@ -128,6 +128,10 @@ std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::s
   const std::vector<data::Finding> looked = run::look(data).findings;
   asked.insert(asked.end(), looked.begin(), looked.end());
   data::raise_for_diagnosis(data, asked);
+  data = data::in_parts(std::move(data));
+  if (data.parts_of_a_run)
+    warnings.push_back(fmt::format("one run: parts of it, {} to {}, are each predicted from the others",
+                                   data.runs.front().id, data.runs.back().id));
   std::vector<std::string> at_once = warnings;  // the diagnosis says the rest of it again, with what it did
   for (const data::Finding& finding : looked) {
     at_once.push_back(data::text_of(data, finding));

@@ -10,7 +10,6 @@
 #include <sim/engine/failure.hpp>
 
 #include "corruptions.hpp"
-#include "whole.hpp"
 
 namespace mckibben::diagnose {
 namespace {
@@ -20,10 +19,11 @@ struct Said {
   std::vector<std::string> effects{};
 };
 
-Said said_of(const domain::Dataset& data, std::uint64_t seed) {
+Said said_of(const domain::Dataset& data, const Asked& asked) {
   try {
-    const auto found = whole_diagnosis(data, {.threads = 0, .seed = seed});
+    const auto found = whole_diagnosis(data, asked);
     Said said{.verdict = {}, .sentence = found.because};
+    for (const std::string& warning : found.warnings) said.sentence += " | " + warning;
     for (const auto& [value, name] : names(found.verdict))
       if (value == found.verdict) said.verdict = name;
     for (const auto& effect : found.effects) said.effects.push_back(effect.name);
@@ -43,16 +43,16 @@ bool names_it(const Corruption& corruption, const std::string& sentence) {
 
 }  // namespace
 
-void score_corrupted(std::uint64_t seed, const std::string& only) {
+void score_corrupted(const Asked& asked, const std::string& only) {
   int all = 0, wrong = 0, named = 0, within_noise = 0, kept = 0, hidden_effects = 0;
-  for (const Hidden& base : sound_data(seed)) {
+  for (const Hidden& base : sound_data(asked.seed)) {
     for (const Corruption& corruption : corruptions()) {
       const std::string label = base.title + ": " + corruption.name;
       if (label.find(only) == std::string::npos) continue;
       domain::Dataset data = base.data;
       corruption.spoil(data);
       const auto start = std::chrono::steady_clock::now();
-      const Said said = said_of(data, seed);
+      const Said said = said_of(data, asked);
       const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       const bool right = names_it(corruption, said.sentence);
       const bool wrongly = std::any_of(said.effects.begin(), said.effects.end(), [&](const auto& effect) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <sim/diagnose/predict.hpp>
 #include <sim/run/simulate.hpp>
@@ -229,12 +230,56 @@ std::vector<Corruption> of_the_table() {
        }}};
 }
 
+/// Of every reading, from the one before.
+void filtered(domain::Run& run, double cut_off_Hz, double tick_s) {
+  const double keeps = std::exp(-2.0 * std::numbers::pi * cut_off_Hz * tick_s);
+  double last = run.contraction_ratio.front();
+  for (double& ratio : run.contraction_ratio) ratio = last = std::lerp(ratio, last, keeps);
+}
+
+/// What a bench has wrong in all runs or in half of them.
+std::vector<Corruption> of_the_bench() {
+  const auto half = [](auto change) {
+    return [change](Data& d) {
+      for (std::size_t r = 4; r <= 6; ++r)
+        for (double& ratio : run(d, r).contraction_ratio) ratio = counted(d, change(ratio));
+    };
+  };
+  return {{"loads + 1 kg", "", {"All loads"}, each([](Data&, domain::Run& r) { r.load_kg += 1.0; })},
+          {"loads + 5 %", "", {"All loads"}, each([](Data&, domain::Run& r) { r.load_kg *= 1.05; })},
+          {"steps of 0.5 mm", "", {"steps"}, each([](Data&, domain::Run& r) {
+             const double step = 5e-4 / length_m;
+             for (double& ratio : r.contraction_ratio) ratio = step * std::round(ratio / step);
+           })},
+          {"zero 2 mm in half", "r05", {"zero"}, half([](double ratio) { return ratio + 2e-3 / length_m; })},
+          {"gain 3 % in half", "r05", {"%", "gain"}, half([](double ratio) { return 1.03 * ratio; })},
+          {"clock 1 % fast", "", {"clock"}, each([](Data& d, domain::Run& r) {
+             const Series was = r.contraction_ratio;
+             const auto last = static_cast<double>(was.size() - 1);
+             for (std::size_t k = 0; k < was.size(); ++k) {
+               const double at = std::min(1.01 * static_cast<double>(k), last);
+               const auto before = static_cast<std::size_t>(at), after = std::min(before + 1, was.size() - 1);
+               const double share = at - static_cast<double>(before);
+               r.contraction_ratio[k] = counted(d, std::lerp(was[before], was[after], share));
+             }
+           })},
+          {"filter 20 Hz",
+           "",
+           {"late"},
+           each([](Data& d, domain::Run& r) { filtered(r, 20.0, d.rig.tick_s); }),
+           {"command_delay", "reading_delay", "valve_lag"}},
+          {"counts halved", "", {"halved", "counts per turn"}, each([](Data&, domain::Run& r) {
+             for (double& ratio : r.contraction_ratio) ratio *= 0.5;
+           })}};
+}
+
 }  // namespace
 
 const std::vector<Corruption>& corruptions() {
   static const std::vector<Corruption> list = [] {
     std::vector<Corruption> all;
-    for (const auto& group : {in_time(), of_the_rig(), of_the_zero(), while_it_ran(), of_the_table()})
+    for (const auto& group :
+         {in_time(), of_the_rig(), of_the_zero(), while_it_ran(), of_the_table(), of_the_bench()})
       all.insert(all.end(), group.begin(), group.end());
     return all;
   }();

@@ -172,7 +172,9 @@ void score_corrupted(const std::vector<std::string>& words) {
     else
       seed = std::strtoull(word.c_str(), nullptr, 10);
   }
-  diagnose::score_corrupted(seed, only);
+  diagnose::Asked asked{.seed = seed};
+  if (verbose) asked.say = [](const std::string& what) { fmt::print("{}\n", what); };
+  diagnose::score_corrupted(asked, only);
 }
 
 constexpr std::array suites{"",       "--nulls",  "--off-sheet", "--other-laws",

@@ -80,7 +80,7 @@ TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
   domain::Dataset given;
   given.runs.emplace_back().measured.emplace().give("muscle_pressure");
   const auto all = catalogue(), seen = catalogue(given);
-  const auto names = effects_out_of_sight();
+  const auto names = effects_out_of_sight(given);
   EXPECT_EQ(names.size(), 9u);
   EXPECT_EQ(seen.size() + names.size(), all.size());  // each of them has one law
   for (const Candidate& c : seen) EXPECT_EQ(std::count(names.begin(), names.end(), c.effect), 0) << c.effect;
@@ -92,7 +92,7 @@ TEST(Underway, AGivenPressureLeavesValveHoseAndGasOutOfSight) {
   blind.runs.emplace_back();
   for (const Candidate& c : catalogue(blind)) EXPECT_NE(c.effect, "gauge_error");
   for (const Parameter& p : nominal_parameters({}))
-    EXPECT_EQ(out_of_sight(p),
+    EXPECT_EQ(out_of_sight(given, p),
               p.path.starts_with("valve") || p.path.starts_with("hose") || p.path == "muscle.dead_volume")
         << p.path;
 }

@@ -121,7 +121,7 @@ TEST(NightlyModerateRigs, SayWhereTheirBooksDoNotClose) {
     return random_ride(seed, false, solver::Method::automatic).imbalance.energy > 1e-6;
   };
   unsigned seed = 50;
-  while (seed < 400 && !is_open(seed)) ++seed;
+  while (seed < 2000 && !is_open(seed)) ++seed;
   const Recording run = random_ride(seed, false, solver::Method::automatic);
   ASSERT_GT(run.imbalance.energy, 1e-6);
   ASSERT_EQ(doubts(run).size(), 1u);
