@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sim/data/finding.hpp>
 #include <sim/identify/held_out.hpp>
 #include <sim/identify/identify.hpp>
 #include <sim/identify/search.hpp>
@@ -260,6 +261,7 @@ Identified Search::found() && {
                             .off_sheet = m.point.z.size() > 0 ? m.point.z.cwiseAbs().maxCoeff() : 0.0});
     result.models.push_back(std::move(m));
   }
+  if (result.table.empty()) throw data::UnfitData(rows_.data(), "no model of the rig goes through all runs");
   result.decision = decide(result.table);
   result.promised = std::move(promised_);
   result.passes = problem_.simulator.passes();

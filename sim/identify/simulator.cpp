@@ -162,12 +162,12 @@ Eigen::MatrixXd Simulator::differences(std::span<const Setting> settings,
           });
       // Some of a group could not go on: each by itself.
       std::vector<Job> alone;
-      for (std::size_t i = 0; i < all.size(); ++i)
-        if (missed[i] != 0)
-          for (std::size_t k = all[i].settings.size() > 1 ? 1 : 0; k < all[i].settings.size(); ++k) {
-            alone.push_back({all[i].run, {0}, all[i].tells_first && k <= 1});
-            if (k > 0) alone.back().settings.push_back(all[i].settings[k]);
-          }
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (missed[i] == 0) continue;
+        if (all[i].tells_first) alone.push_back({all[i].run, {0}, true});
+        for (std::size_t k = 1; k < all[i].settings.size(); ++k)
+          alone.push_back({all[i].run, {0, all[i].settings[k]}, false});
+      }
       return alone;
     };
     if (const auto alone = fly(jobs, false); !alone.empty()) fly(alone, true);

@@ -108,14 +108,19 @@ Block block_of(const Source& source, std::optional<char> said, std::size_t from)
   return best;
 }
 
-Block with_ragged(const Source& source, Block block, std::size_t from) {
+Block with_ragged(const Source& source, const Block& found_first, std::size_t from) {
+  Block block = found_first;
+  std::size_t wide = 0;
   for (std::size_t line = block.first - 1; line >= from && line > 0; --line) {
     if (is_blank(source.line(line)) || is_marked(source.line(line))) continue;
     const Numbers found = numbers_in(split_cells(source.line(line), block.separator));
-    if (found.numbers == 0 || found.numbers + found.empty != found.cells || found.cells > block.raw) break;
+    const bool is_wide = found.cells > block.raw && found.is_row();
+    if (!is_wide && (found.numbers == 0 || found.numbers + found.empty != found.cells)) break;
+    wide += is_wide ? 1 : 0;
     block.first = line;
   }
-  return block;
+  constexpr std::size_t most = 10;  // one in so many is a row with a remark; more are another table
+  return most * wide > found_first.first - block.first ? found_first : block;
 }
 
 }  // namespace mckibben::input

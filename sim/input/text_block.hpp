@@ -41,7 +41,7 @@ struct Block {
 /// From line `from` on. `said`: the separator that the file names. No rows: there is none.
 Block block_of(const Source& source, std::optional<char> said, std::size_t from);
 
-/// With the rows of numbers above it that have fewer cells.
-Block with_ragged(const Source& source, Block block, std::size_t from);
+/// With the rows of numbers above it that have fewer cells, and a few that have more.
+Block with_ragged(const Source& source, const Block& found_first, std::size_t from);
 
 }  // namespace mckibben::input

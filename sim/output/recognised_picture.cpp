@@ -54,8 +54,15 @@ std::string drawn(const Line& line, const Panel& panel) {
                      colours[line.run % colours.size()], path);
 }
 
+/// Headings may say it themselves.
+std::string in_its_unit(const ColumnGuess& guess) {
+  const std::string unit = fmt::format("[{}]", guess.unit.value);
+  return guess.column.value.find(unit) == std::string::npos ? guess.column.value + " " + unit
+                                                            : guess.column.value;
+}
+
 std::string words_of(const ColumnGuess& guess) {
-  std::string words = fmt::format("{} [{}]", guess.column.value, guess.unit.value);
+  std::string words = in_its_unit(guess);
   if (guess.zero) words += " - " + guess.zero->value;
   if (guess.zero && guess.factor) words = "(" + words + ")";
   if (guess.factor) words += " x " + guess.factor->value;
@@ -109,9 +116,7 @@ std::string picture_of(const Recognised& found) {
   Rows rows(drawn_left, drawn_left + drawn_width, 38.0);
   const std::string names = legend(found, rows);
   double top_px = rows.bottom_px() + 17.0;
-  const std::string over = time == nullptr || time->column.open()
-                               ? "rows"
-                               : fmt::format("{} [{}]", time->column.value, time->unit.value);
+  const std::string over = time == nullptr || time->column.open() ? "rows" : in_its_unit(*time);
   std::string svg =
       fmt::format("<text x='{}' y='20' font-weight='bold'>What was understood, over {}</text>\n", drawn_left,
                   escaped(over)) +

@@ -60,6 +60,13 @@ bool alike(const Values& a, const Values& b) {
   return std::abs(whole_b / whole_a / in_another_unit - 1.0) < 1e-3;
 }
 
+/// Stamps that one clock took, of readings that come one after the other.
+bool are_late(const Values& a, const Values& b) {
+  const double whole = a.back() - a.front();
+  return a != b && std::abs(b.front() - a.front()) < 0.1 * whole &&
+         std::abs(b.back() - a.back()) < 0.1 * whole;
+}
+
 Told unit_of(const UnknownColumn& column, const Heading& heading, const SaidStep& said) {
   if (column.is_date) return {std::string(input::date_unit), "it holds dates"};
   const std::string unit = unit_of_epoch(column.epoch);
@@ -172,15 +179,18 @@ TimeGuess time_of(const UnknownTable& table) {
       candidates, [&](const auto& one) { return alike(first->values, one.first->values); });
   found.guess = guess_of_time(*first, candidates.front().second, said_step(table));
   if (candidates.size() == 1) return found;
-  if (same) {
-    found.guess->column.reason += "; the other columns of time say the same";
-    return found;
-  }
   // A clock that stands before each quantity, with another between.
   bool paired = candidates.front().first == &table.columns.front();
   for (std::size_t i = 1; i < candidates.size(); ++i)
     paired = paired && candidates[i].first - candidates[i - 1].first > 1;
   paired = paired && candidates.back().first != &table.columns.back();
+  const bool late = std::ranges::any_of(candidates, [&](const auto& one) {
+    return one.first != first && are_late(first->values, one.first->values);
+  });
+  if (same && !(paired && late)) {
+    found.guess->column.reason += "; the other columns of time say the same";
+    return found;
+  }
   if (paired) {
     for (const auto& [column, words] : candidates) found.clocks.push_back(column);
     found.guess->column.reason += "; each quantity stands behind a clock of its own";

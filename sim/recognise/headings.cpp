@@ -262,6 +262,12 @@ bool names_a_key(const std::string& name) {
                          "kanal", "parameter", "field", "series", "topic", "tag", "groesse", "größe"});
 }
 
+bool names_a_sensor(const std::string& name) {
+  const std::size_t words = words_of(name).size();
+  return begins_with_word(name, {"sensor", "channel", "kanal", "device", "probe", "muscle", "muskel"}) &&
+         (words == 1 || (words == 2 && has_word(name, {"id", "nr", "no", "number", "index", "name"})));
+}
+
 bool names_rows(const std::string& name) {
   const Words words = words_of(name);
   const bool no_heading =

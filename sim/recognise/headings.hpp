@@ -24,13 +24,15 @@ Heading heading_of(const UnknownColumn& column);
 inline constexpr std::string_view no_word = "neither its words nor its unit are known";
 
 /// Words of absolute pressures; of columns whose value is another for each run, that mark its first row, that
-/// change within a run; of loads; of columns that say which quantity a row holds; of row numbers; of an ADC.
+/// change within a run; of loads; of columns that say which quantity, or which of several sensors, a row
+/// holds; of row numbers; of an ADC.
 bool is_absolute(const std::string& name);
 bool names_a_run(const std::string& name);
 bool names_a_start(const std::string& name);
 bool names_a_phase(const std::string& name);
 bool names_a_load(const std::string& name);
 bool names_a_key(const std::string& name);
+bool names_a_sensor(const std::string& name);
 bool names_rows(const std::string& name);
 bool names_raw(const std::string& name);
 

@@ -219,10 +219,15 @@ std::vector<UnknownTable> cut_by_labels(const UnknownTable& table, const std::op
   for (const auto* columns : {&table.columns, &table.texts})
     for (const UnknownColumn& column : *columns) {
       const Labels labels(column);
-      const bool run = names_a_run(column.name) && heading_of(column).quantity == nullptr,
+      const bool sensor = !is_long && names_a_sensor(column.name) && labels.count <= most_levels;
+      const bool run = (sensor || names_a_run(column.name)) && heading_of(column).quantity == nullptr,
                  load = names_a_load(column.name) && labels.are_levels();
-      if ((run || names_a_start(column.name)) && is_mark(labels))
-        return segments_of(table, "cut", column, {"cut: " + domain::yaml_scalar(column.name)});
+      if ((run || names_a_start(column.name)) && is_mark(labels)) {
+        std::vector<UnknownTable> runs =
+            segments_of(table, "cut", column, {"cut: " + domain::yaml_scalar(column.name)});
+        for (UnknownTable& each : runs) drop(each, {labels});
+        return runs;
+      }
       const bool key = is_long && (&column == is_long->key || &column == is_long->unit);
       const bool block = !column.texts.empty() && labels.are_blocks() && !names_a_phase(column.name) && !key;
       if (load && labels.count == 1) constant.push_back(labels);

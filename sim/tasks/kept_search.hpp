@@ -14,12 +14,12 @@ namespace mckibben::tasks {
 /// The file's leaf, in the folder of a diagnosis.
 inline constexpr const char* kept_search = "search.bin";
 
-/// A line of text (schema, version, hash of the input files, shapes), then the numbers as the machine has
-/// them.
+/// A line of text (version, hash of the input files, shapes), then the numbers as the machine has them;
+/// sealed.
 std::string bytes_of(const identify::Simulated& simulated, const std::vector<domain::InputFile>& inputs);
 
 /// Throws input::MissingInput where there is no such file; input::BadInput where it is of other data, of
-/// another version, or not whole.
+/// another version, or damaged.
 identify::Simulated simulated_in(const std::filesystem::path& file,
                                  const std::vector<domain::InputFile>& inputs);
 

@@ -52,6 +52,14 @@ TEST_F(Import, ThePictureNamesEveryRun) {
   EXPECT_TRUE(holds(svg, "run9"));
 }
 
+TEST_F(Import, ThePictureSaysAUnitOnce) {
+  write_text(scratch_ / "t.csv",
+             "t [ms],U [V],Laser [mm]\n0,0,412\n12,1,411\n24,2,405\n36,3,400\n48,2,404\n60,1,409\n");
+  ASSERT_EQ(mckibben("import t.csv --out mine", scratch_).status, 0);
+  const std::string svg = read_text(scratch_ / "mine/understood.svg");
+  EXPECT_TRUE(holds(svg, "over t [ms]<", "command: U [V]<", "(Laser [mm] - 412"));
+}
+
 TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   const Said said = mckibben("import bench/load_5kg.csv --out mine", scratch_);
   ASSERT_EQ(said.status, 0) << said.err;

@@ -166,10 +166,15 @@ TEST_F(Interrupt, ASearchGoesOnFromWhereItWasEnded) {
   const fs::path kept = scratch / "out/diagnose-data.interrupted/search.bin";
   const std::string bytes = read_text(kept);
   const char* again = "diagnose data --resume out/diagnose-data.interrupted";
-  write_text(kept, bytes.substr(0, bytes.size() - 9));
-  EXPECT_TRUE(holds(mckibben(again, scratch).err, "search.bin: error: the file is not whole"));
-  write_text(kept, "nonsense");
-  EXPECT_TRUE(holds(mckibben(again, scratch).err, "this is no search that was kept"));
+  std::string number = bytes, shape = bytes;
+  number.back() = number.back() == 'a' ? 'b' : 'a';
+  shape.replace(bytes.find("\"shapes\":[[") + 11, 1, "\"");
+  for (const std::string& damaged :
+       {bytes.substr(0, bytes.size() - 9), number, shape, std::string("nonsense")}) {
+    write_text(kept, damaged);
+    EXPECT_TRUE(holds(mckibben(again, scratch).err,
+                      "search.bin: error: this is no search that was kept, or it is damaged"));
+  }
   write_text(kept, bytes);
   write_text(scratch / "wide.yaml", "schema: mckibben-rig/1\nmuscle: {rest_radius: 8 mm}\n");
   EXPECT_TRUE(holds(mckibben(std::string(again) + " --rig wide.yaml", scratch).err,

@@ -66,6 +66,16 @@ TEST(Descent, EndsInOnePlaceWhereverItBegins) {
   EXPECT_LT(std::ranges::max(ends) - std::ranges::min(ends), 0.5);
 }
 
+TEST(Simulator, ASettingThatCannotGoOnLeavesTheOthers) {
+  const Study study(diagnose::small({}, 1.0), {.threads = 2});
+  std::vector<Setting> settings(3, study.dictionary.setting(study.dictionary.described()));
+  settings[1].bench.load_offset_kg = 1e6;
+  const Eigen::MatrixXd seen = study.simulator.differences(settings);
+  EXPECT_TRUE(seen.col(0).allFinite());
+  EXPECT_FALSE(seen.col(1).allFinite());
+  EXPECT_TRUE(seen.col(2).allFinite());
+}
+
 TEST(Identify, DoesNotDependOnThreads) {
   const domain::Dataset data = diagnose::small(leaky(), 2.0);
   const Identified one = identify(data, {.threads = 1}), two = identify(data, {.threads = 2});

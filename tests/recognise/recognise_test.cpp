@@ -201,6 +201,33 @@ TEST_F(Recognise, CountersThatBeginAgainAreRuns) {
   EXPECT_NEAR(std::stod(rate.maps[0].find("time")->factor->value), 1.0 / 240.0, 1e-9);
 }
 
+TEST_F(Recognise, SeveralSensorsInOneTableAreRuns) {
+  const auto row = [](int k) {
+    return fmt::format("{},{},{:.3f},{:.2f}", 20 * (k / 2), k % 2, drive(k / 2), 30 * drive(k / 2));
+  };
+  const Recognised found = recognise({run("a.csv", "t_ms,sensor,p_bar,x_mm\n", row)}, true);
+  ASSERT_EQ(found.runs.size(), 2u);
+  EXPECT_EQ(found.tables[1].part, std::vector<std::string>{"where: {sensor: 1}"});
+}
+
+TEST_F(Recognise, ClocksOfReadingsOneAfterTheOtherAreEachItsOwn) {
+  const auto row = [](int k) {
+    return fmt::format("{},{:.3f},{},{:.2f}", 20 * k, drive(k), 20 * k + 7, 30 * drive(k));
+  };
+  EXPECT_EQ(recognise({run("a.csv", "t1_ms,p_bar,t2_ms,x_mm\n", row)}, true)
+                .maps[0]
+                .find("contraction")
+                ->time->value,
+            "t2_ms");
+}
+
+TEST_F(Recognise, ARowMayHaveARemark) {
+  const auto row = [](int k) {
+    return fmt::format("{},{:.3f},{:.2f}{}", 20 * k, drive(k), 30 * drive(k), k == 40 ? ",knocked" : "");
+  };
+  EXPECT_EQ(recognise({run("a.csv", "t_ms,p_bar,x_mm,note\n", row)}, true).tables[0].rows(), 200u);
+}
+
 TEST_F(Recognise, RowsOfAKnownRigWithoutStampsAreAsked) {
   const auto row = [](int k) { return fmt::format("{:.3f},{:.2f}", 5 * drive(k), 30 * drive(k)); };
   const fs::path file = run("a.csv", "p_bar,x_mm\n", row);
