@@ -27,7 +27,8 @@ struct Part {
 constexpr Part scenario_parts[] = {
     {"rig",
      "rig:\n"
-     "  base: thesis                # or a muscle by catalogue: festo_dmsp_10, festo_dmsp_20\n"
+     "  # Or a muscle by catalogue: festo_dmsp_5, festo_dmsp_10, festo_dmsp_20, festo_dmsp_40, home_made.\n"
+     "  base: thesis\n"
      "  #muscle: {rest_radius: 8 mm ± 1 %}                    "
      "# mckibben schema rig lists all that can change\n"
      "  #effects: {muscle_leak: {conductance: 1e-10 m3/(s.Pa)}}   "
@@ -47,6 +48,7 @@ constexpr Part scenario_parts[] = {
      "  - {kind: pid}             # gains that are left out are tuned\n"
      "  - {kind: pid, name: pid_late, feedback_delay_ticks: 5}\n"
      "  - {kind: static_inverse, assumed_load: 14 kg}\n"},
+    {"joint_force", "#joint_force: [{at: 2 s, force: 10 N}]\n"},
     {"noise", "#noise: {encoder_jitter: 1e-4, ripple: 5 mbar}\n"},
     {"seed", "#seed: 7\n"},
     {"criteria", "#criteria: [{controller: pid, rmse_below: 0.05}]    # if not met, the exit status is 1\n"},

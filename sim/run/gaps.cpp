@@ -52,7 +52,7 @@ std::vector<Column> stamps_of(const domain::Measurement& measured) {
 }
 
 bool has_rows(const domain::Run& run) {
-  return !run.measured || !run.time_s.empty();
+  return !run.measured || !run.judged().empty();
 }
 
 }  // namespace

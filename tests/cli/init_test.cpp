@@ -38,7 +38,7 @@ TEST(Init, WritesNothingThatDoesNotWorkWhenSwitchedOn) {
   ASSERT_EQ(mckibben("init", scratch).status, 0);
   const std::string plain = read_text(scratch / "scenario.yaml");
   const std::string all = std::regex_replace(plain, std::regex("\n( *)#([a-z])"), "\n$1$2");
-  EXPECT_EQ(all.size() + 8, plain.size()) << "eight lines are off";
+  EXPECT_EQ(all.size() + 9, plain.size()) << "nine lines are off";
   write_text(scratch / "all.yaml", shortened(all));
   EXPECT_EQ(mckibben("check all.yaml", scratch).err, "");
   const Said run = mckibben("run all.yaml --json", scratch);
