@@ -72,7 +72,7 @@ struct Shuffle {
                   std::string_view) {
     if (key == "tick" || key == "settling_time") return;  // ours to choose: they cost time, not trouble
     if (key == "length_offset" || key == "reading_offset") return;  // of the bench, not of the rig
-    if (key == "spring_preload") return;  // beyond what the threads bear, most of it
+    if (key == "spring_preload") return;                           // beyond what the threads bear, most of it
     if (key == "end_length" || key == "exhaust_pressure") return;  // against the rules, most of it
     if (key == "lowest_command") return;
     if (factor > 0.0) {
