@@ -1,4 +1,4 @@
-// Amounts of what was read, in the units in which they are told.
+// Amounts of what was read: in the units in which they are told, and what a sensor's count is of it.
 #pragma once
 
 #include <string>
@@ -18,5 +18,13 @@ std::string_view unit_in_words(Judged judged);
 
 /// A reading beside the one that is judged, and its SI unit.
 std::pair<std::string, std::string_view> told(domain::Beside which, bool pair);
+
+/// One count of the encoder in the reading that is judged: contraction ratio, or joint angle [rad] of a pair.
+double reading_per_count(const plant::Rig& rig);
+
+/// What checks of readings may take for a move, in the same: a count. A sensor that is finer than the
+/// thesis's encoder is looked at as coarsely, since that is what they were tried with, and one that scatters
+/// more, more coarsely.
+double reading_grain(domain::Judged judged, const plant::Rig& rig);
 
 }  // namespace mckibben::data

@@ -11,6 +11,7 @@
 #include <sim/data/examine.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/odd_readings.hpp>
+#include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>

@@ -5,11 +5,9 @@
 #include <random>
 #include <utility>
 
-#include <plant/instruments.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/scatter.hpp>
 #include <sim/data/series.hpp>
-#include <sim/data/thresholds.hpp>
 
 namespace mckibben::data {
 namespace {
@@ -19,11 +17,10 @@ using domain::is_read, domain::MeasuredColumn, domain::Measurement, domain::Rows
 constexpr double even_row_s = 0.012;     // no load bends within half of it by what a sensor could show
 constexpr double slack_share = 0.002;    // of a run's largest force: less is a cord that hangs through
 constexpr double enough_readings = 6.0;  // in a row, to be averaged
-constexpr double noises_in_a_grain = 4.0;
-constexpr std::size_t quarters = 4;  // of a row, in which inputs are followed
-constexpr double straight = 5e-3;    // of an input's range: it neither jumps nor bends by less
-constexpr double outlying = 6.0;     // deviations
-constexpr double apart = 1e-6;       // of a row: nearer instants are one, but for rounding
+constexpr std::size_t quarters = 4;      // of a row, in which inputs are followed
+constexpr double straight = 5e-3;        // of an input's range: it neither jumps nor bends by less
+constexpr double outlying = 6.0;         // deviations
+constexpr double apart = 1e-6;           // of a row: nearer instants are one, but for rounding
 
 double median_gap_s(const std::vector<double>& time_s) {
   std::vector<double> gaps;
@@ -346,68 +343,6 @@ std::size_t leave_out_the_end(const plant::Sensor* cell, std::vector<double>& fo
 }
 
 }  // namespace
-
-domain::Run beginning_of(domain::Run run, std::size_t rows) {
-  if (rows >= run.judged().size()) return run;
-  for (auto* column : {&run.current_mA, &run.contraction_ratio, &run.force_N, &run.angle_rad, &run.time_s})
-    if (!column->empty()) column->resize(rows);
-  for (const domain::Beside which : domain::besides) {
-    if (which != domain::Beside::force && run.gauge(which)) run.gauge(which)->resize(rows);
-    auto& missing = run.missing_beside[static_cast<std::size_t>(which)];
-    if (!missing.empty()) missing.resize(rows);
-  }
-  if (!run.missing.empty()) run.missing.resize(rows);
-  for (auto* driving : {&run.measured, &run.shaken})
-    if (*driving) (*driving)->rows.resize(rows);
-  return run;
-}
-
-namespace {
-constexpr std::size_t parts = 4, least_rows = 25;  // of each
-}
-
-bool has_parts(const domain::Dataset& data) {
-  return data.runs.size() == 1 && data.runs.front().judged().size() >= parts * least_rows;
-}
-
-domain::Dataset in_parts(domain::Dataset data) {
-  if (!has_parts(data)) return data;
-  const domain::Run whole = std::move(data.runs.front());
-  data.runs.clear();
-  data.parts_of_a_run = true;
-  const std::size_t rows = whole.judged().size();
-  for (std::size_t part = 0; part < parts; ++part) {
-    domain::Run run = beginning_of(whole, rows * (part + 1) / parts);
-    run.id += "-" + std::to_string(part + 1);
-    const auto first = static_cast<std::ptrdiff_t>(rows * part / parts);
-    run.missing.resize(run.judged().size(), false);
-    std::fill_n(run.missing.begin(), first, true);
-    for (const domain::Beside which : domain::besides)
-      if (run.beside(which) != nullptr) {
-        auto& missing = run.missing_beside[static_cast<std::size_t>(which)];
-        missing.resize(run.judged().size(), false);
-        std::fill_n(missing.begin(), first, true);
-      }
-    data.runs.push_back(std::move(run));
-  }
-  return data;
-}
-
-double reading_per_count(const plant::Rig& rig) {
-  if (rig.pair() == nullptr) return plant::count_height_m(rig) / rig.muscle.rest_length_m;
-  return plant::count_height_m(rig) / rig.joint.wheel_radius_m;
-}
-
-double reading_grain(domain::Judged judged, const plant::Rig& rig) {
-  if (judged == domain::Judged::pressure) return thresholds.reading.gauge_step_Pa;
-  const double count = reading_per_count(rig);
-  const plant::Sensor& sensor = rig.sensors.position();
-  if (sensor.counts_pulses()) return count;
-  const double usual_m = plant::count_height_m(plant::Sensor{}, rig.joint.wheel_radius_m);
-  return count / plant::count_height_m(rig) *
-         std::max({plant::count_height_m(rig), usual_m,
-                   noises_in_a_grain * sensor.noise * sensor.rise_m(rig.joint.wheel_radius_m)});
-}
 
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;

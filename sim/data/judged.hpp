@@ -16,20 +16,4 @@ namespace mckibben::data {
 /// tick are what they are.
 domain::Dataset with_rows(domain::Dataset data);
 
-/// The first rows of a run.
-domain::Run beginning_of(domain::Run run, std::size_t rows);
-
-/// One long run as a few parts of it, so that each can be predicted from the others: each is simulated from
-/// the beginning, and its own rows are judged. Others, and runs of few rows, as they are.
-domain::Dataset in_parts(domain::Dataset data);
-bool has_parts(const domain::Dataset& data);
-
-/// One count of the encoder in the reading that is judged: contraction ratio, or joint angle [rad] of a pair.
-double reading_per_count(const plant::Rig& rig);
-
-/// What checks of readings may take for a move, in the same: a count. A sensor that is finer than the
-/// thesis's encoder is looked at as coarsely, since that is what they were tried with, and one that scatters
-/// more, more coarsely.
-double reading_grain(domain::Judged judged, const plant::Rig& rig);
-
 }  // namespace mckibben::data

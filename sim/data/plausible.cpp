@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/data/judged.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
 #include <sim/data/scatter.hpp>
@@ -46,12 +46,6 @@ double typical_step_s(const Series& time_s) {
 
 constexpr std::array<std::pair<std::string_view, double>, 6> pressure_units{
     {{"MPa", 1e6}, {"bar", 1e5}, {"psi", 6894.757}, {"kPa", 1e3}, {"mbar", 1e2}, {"Pa", 1.0}}};
-
-std::optional<double> size_Pa(std::string_view unit) {
-  for (const auto& [name, size] : pressure_units)
-    if (unit == name) return size;
-  return std::nullopt;
-}
 
 /// The unit in which a number comes nearest to what a supply gives, without going beyond.
 std::string unit_below(double number, double most_Pa) {
@@ -319,6 +313,12 @@ std::string too_short(const std::vector<double>& time_s, ColumnPlace time) {
       "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is its time in {}, not in {}? Then write "
       "columns: {{{}}}",
       1e3 * lasts_s, time_s.size(), 1e6 * step_s, time.unit, said, line_of("time", time));
+}
+
+std::optional<double> size_Pa(std::string_view unit) {
+  for (const auto& [name, size] : pressure_units)
+    if (unit == name) return size;
+  return std::nullopt;
 }
 
 double coarse_step(const domain::Dataset& data, const domain::Run& run, const Series& values) {

@@ -2,7 +2,9 @@
 // ask it first. Each finding says the line to write.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sim/data/finding.hpp>
@@ -18,6 +20,9 @@ std::vector<Finding> implausible(const domain::Dataset& data);
 /// The step that a run's readings of position come in, where it is coarser than what the rig's sensor
 /// resolves; 0 where it is not.
 double coarse_step(const domain::Dataset& data, const domain::Run& run, const std::vector<double>& values);
+
+/// Of a pressure's unit, in the spellings that `columns` usually has.
+std::optional<double> size_Pa(std::string_view unit);
 
 /// What to write if the pressure that this key gives is absolute; empty if it has a zero.
 std::string if_absolute(const domain::Dataset& data, std::size_t run, const std::string& key);

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include <plant/instruments.hpp>
-#include <sim/data/judged.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/data/series.hpp>
 #include <sim/diagnose/noise.hpp>
 #include <sim/diagnose/predict.hpp>
@@ -232,7 +232,8 @@ struct Sheet {
 };
 Sheet sheet_of(const domain::Dataset& data) {
   if (data.judged() == domain::Judged::pressure) {
-    const bool valve = !data.runs.front().muscle_pressure_Pa && !data.runs.front().opposite_pressure_Pa;
+    const bool valve = std::ranges::find(domain::valve_gauges, data.runs.front().judged_gauge()) !=
+                       domain::valve_gauges.end();
     const plant::Sensor* gauge =
         data.rig.sensors.of(valve ? plant::Sensed::valve_pressure : plant::Sensed::muscle_pressure);
     return gauge != nullptr ? Sheet{gauge->resolution, gauge->noise, gauge->accuracy} : Sheet{};

@@ -45,8 +45,8 @@ class Prediction final : public run::Follower {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const ride::Rider& rider = all[i];
       const ride::Reading& seen = rider.now.reading;
-      readings_[i].judged.push_back(gauge_    ? pressure_Pa(seen, *gauge_)
-                                    : forces_ ? rider.moment().cord_force_N()
+      if (!gauge_)
+        readings_[i].judged.push_back(forces_ ? rider.moment().cord_force_N()
                                               : seen.wheel_m / travel_m(rider.plant().rig()));
       readings_[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
       if (force_beside_) readings_[i].force_N.push_back(std::max(rider.moment().cord_force_N(), 0.0));
@@ -54,15 +54,9 @@ class Prediction final : public run::Follower {
       if (valve_beside_) readings_[i].valve_pressure_Pa.push_back(seen.valve_pressure_Pa);
       if (opposite_valve_beside_)
         readings_[i].opposite_valve_pressure_Pa.push_back(seen.opposite_valve_pressure_Pa);
+      if (gauge_) readings_[i].judged.push_back(readings_[i].beside(*gauge_).back());
     }
     readings_[0].states.push_back(all[0].now.flow.state);
-  }
-
-  static double pressure_Pa(const ride::Reading& seen, domain::Beside gauge) {
-    using enum domain::Beside;
-    if (gauge == valve_pressure) return seen.valve_pressure_Pa;
-    if (gauge == opposite_valve_pressure) return seen.opposite_valve_pressure_Pa;
-    return gauge == muscle_pressure ? seen.muscle_pressure_Pa : seen.opposite_pressure_Pa;
   }
 
   /// Of the wheel's rim, for a reading of 1.

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sim/data/judged.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/diagnose/start.hpp>
 #include <sim/diagnose/thresholds.hpp>
 

@@ -77,17 +77,12 @@ struct Run {
   }
   const std::vector<double>& judged() const { return const_cast<Run*>(this)->judged(); }
   std::vector<double>& judged() {
-    if (const auto gauge_of = judged_gauge()) return *gauge(*gauge_of);
     const Judged kind = kind_of_judged();
+    if (const auto which = kind == Judged::pressure ? first_gauge() : std::nullopt) return *gauge(*which);
     return kind == Judged::angle ? angle_rad : kind == Judged::force ? force_N : contraction_ratio;
   }
   /// Of rows: the gauge that is judged, the first there is, where nothing but pressures was read.
-  std::optional<Beside> judged_gauge() const {
-    if (kind_of_judged() != Judged::pressure) return std::nullopt;
-    for (const Beside which : besides)
-      if (which != Beside::force && const_cast<Run*>(this)->gauge(which)) return which;
-    return std::nullopt;
-  }
+  std::optional<Beside> judged_gauge() const { return reads_only_pressures() ? first_gauge() : std::nullopt; }
   /// What was read beside it; null if it was not.
   const std::vector<double>* beside(Beside which) const {
     if (which == Beside::force) return force_N.empty() || length_is_given() ? nullptr : &force_N;
@@ -106,10 +101,12 @@ struct Run {
   bool length_is_given() const { return measured && measured->gives_length(); }
   bool reads_only_pressures() const {
     if (!contraction_ratio.empty() || !force_N.empty() || !angle_rad.empty()) return false;
-    const bool of_rows = std::ranges::any_of(besides, [&](Beside which) {
-      return which != Beside::force && const_cast<Run*>(this)->gauge(which);
-    });
-    return of_rows || (measured && measured->reads_only_pressures());
+    return first_gauge() || (measured && measured->reads_only_pressures());
+  }
+  std::optional<Beside> first_gauge() const {
+    for (const Beside which : besides)
+      if (which != Beside::force && const_cast<Run*>(this)->gauge(which)) return which;
+    return std::nullopt;
   }
 
   template <class Self, class Visitor>

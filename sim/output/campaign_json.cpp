@@ -1,5 +1,5 @@
 // Layout of a campaign's documents; see the header.
-#include <sim/data/judged.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/hash.hpp>

@@ -166,7 +166,7 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
   const diagnose::Judged judged = data.judged();
   const bool bench = data.lengths_are_given(), pair = data.rig.pair() != nullptr,
              height = judged == diagnose::Judged::contraction;
-  const output::JudgedWords& of = output::words_of(data.judged());
+  const output::JudgedWords& of = output::words_of(judged);
   const double floor = diagnosis.gap.noise_floor / of.size;
   const std::string error = "Error: measured less model";
   const auto cell = [](const domain::Run& run) { return run.beside(domain::Beside::force) != nullptr; };

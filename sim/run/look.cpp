@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <sim/data/judged.hpp>
+#include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/stamps.hpp>
 #include <sim/data/thresholds.hpp>
@@ -62,9 +63,7 @@ void ask_absolute(domain::Dataset data, double squares_as_said, std::vector<data
 
 double pressure_Pa(const Sample& sample, domain::Beside gauge) {
   const plant::Channel channel = domain::channel_of(gauge, true);
-  const auto& side = sample.side_state(channel.muscle);
-  return std::ranges::find(domain::gauges, gauge) != domain::gauges.end() ? side.muscle_pressure_Pa
-                                                                          : side.valve_pressure_Pa;
+  return channel.signal->value(sample, channel.muscle);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <sim/data/judged.hpp>
+#include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/stamps.hpp>
 #include <sim/data/warnings.hpp>

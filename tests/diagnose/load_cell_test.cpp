@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/amount.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/run/replay.hpp>
 

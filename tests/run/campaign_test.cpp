@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <sim/data/judged.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/data/judged.hpp>
+#include <sim/data/parts.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/predict.hpp>
 

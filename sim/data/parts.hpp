@@ -1,0 +1,16 @@
+// Runs of fewer rows: the beginning of one, or one long run cut so that it can be held out part by part.
+#pragma once
+
+#include <sim/domain/dataset.hpp>
+
+namespace mckibben::data {
+
+/// The first rows of a run.
+domain::Run beginning_of(domain::Run run, std::size_t rows);
+
+/// One long run as a few parts of it, so that each can be predicted from the others: each is simulated from
+/// the beginning, and its own rows are judged. Others, and runs of few rows, as they are.
+domain::Dataset in_parts(domain::Dataset data);
+bool has_parts(const domain::Dataset& data);
+
+}  // namespace mckibben::data
