@@ -68,7 +68,7 @@ std::string bench_in_words(const Diagnosis& d) {
   std::string text;
   for (const BenchFault& fault : d.bench) {
     text += capitalised(fault.words);
-    if (fault.write.size() < thresholds.tell.short_line)
+    if (!fault.write.empty() && fault.write.size() < thresholds.tell.short_line)
       text += fmt::format(" (in the data set: {})", fault.write);
     text += ". ";
   }

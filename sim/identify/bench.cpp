@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -9,6 +10,8 @@
 #include <fmt/ranges.h>
 
 #include <sim/data/amount.hpp>
+#include <sim/data/plausible.hpp>
+#include <sim/data/ranges.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/identify/bench.hpp>
@@ -194,33 +197,26 @@ class FaultReport {
   }
 
   std::string unit_of_reading() const {
-    return data_.judged() == domain::Judged::angle      ? "rad"
-           : data_.judged() == domain::Judged::force    ? "N"
-           : data_.judged() == domain::Judged::pressure ? "Pa"
-                                                        : "1";
+    return data_.judged() == domain::Judged::contraction ? "1"
+                                                         : std::string(data::unit_in_words(data_.judged()));
   }
 
-  /// A run's own place for the judged reading, with what is off taken out.
+  /// A run's own place for the judged reading, with what is off taken out. Empty where its unit's size is not
+  /// known here.
   std::string column_line(const domain::Run& of, double zero, double factor, double deviation) const {
     const auto gauge = of.judged_gauge();
     const std::string key = gauge ? data::told(*gauge, data_.rig.pair() != nullptr).first
                                   : std::string(plant::name_of(data_.judged()));
-    domain::ColumnPlace place = of.columns[key];
-    if (place.absent()) place = data_.columns[key];
-    const auto judged_by = [&](double per_unit) {
-      place.zero += zero / (place.factor * per_unit);
-      place.factor *= factor;
-    };
-    if (place.absent()) {
-      place.column = key == "contraction" ? "contraction_ratio" : key == "angle" ? "angle_rad" : "force_N";
-      place.unit = unit_of_reading();
-      judged_by(1.0);
-    } else {
-      judged_by(key == "contraction" ? of.ratio_per_unit : place.unit == "deg" ? plant::degree_rad : 1.0);
-    }
-    const double per =
-        deviation /
-        std::max(std::abs(place.factor * (key == "contraction" ? of.ratio_per_unit : 1.0)), 1e-300);
+    domain::ColumnPlace place =
+        data::with_our_names(domain::merged(data_.columns, of.columns), data_.rig.command_unit())[key];
+    const std::optional<double> size = gauge                  ? data::size_Pa(place.unit)
+                                       : key == "contraction" ? of.ratio_per_unit
+                                       : place.unit == "deg"  ? plant::degree_rad
+                                                              : 1.0;
+    if (!size) return "";
+    place.zero += zero / (place.factor * *size);
+    place.factor *= factor;
+    const double per = deviation / std::max(std::abs(place.factor * *size), 1e-300);
     std::string text = fmt::format("columns: {{{}: {{column: {}, unit: {}", key, place.column, place.unit);
     if (place.zero != 0.0) text += ", zero: " + number_of(place.zero, zero == 0.0 ? 0.0 : per);
     if (place.factor != 1.0)

@@ -94,6 +94,19 @@ TEST(PressuresAlone, OfOneLongRunAtAHeldLengthTellTheVolumeAndTheExhaust) {
   EXPECT_TRUE(surrounds(volume->fitted, 3.1e-5));
 }
 
+TEST(PressuresAlone, SayAGaugesZeroInTheUnitOfItsColumn) {
+  domain::Dataset data = pressures_of({}, {}, {4.0, 2.0, 1.0, 0.5}, 4.0, command);
+  data.columns["muscle_pressure"] = {"p_kPa", "kPa"};
+  for (double& read_Pa : *data.runs[2].muscle_pressure_Pa) read_Pa += 5000.0;
+  const Diagnosis found = diagnosis_of(data, 2);
+  ASSERT_EQ(found.bench.size(), 1u);
+  EXPECT_EQ(found.bench[0].name, "zeros_differ");
+  EXPECT_EQ(found.bench[0].runs, std::vector<std::string>{"r3"});
+  const std::string line = "columns: {muscle_pressure: {column: p_kPa, unit: kPa, zero: ";
+  ASSERT_TRUE(found.bench[0].write.starts_with(line)) << found.bench[0].write;
+  EXPECT_NEAR(std::stod(found.bench[0].write.substr(line.size())), 5.0, 0.2);
+}
+
 TEST(PressuresAlone, BehindAGivenValvePressureTellOnlyOfHoseAndMuscle) {
   plant::Rig truth;
   truth.effects.get<plant::PolytropicGas>().exponent = 1.3;
