@@ -10,6 +10,7 @@
 
 #include <sim/input/as_columns.hpp>
 #include <sim/input/cells.hpp>
+#include <sim/input/messages.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/text_block.hpp>
 
@@ -173,6 +174,10 @@ std::size_t take_labels(Lines& lines) {
 }  // namespace
 
 std::optional<Source> as_columns(const Source& source) {
+  if (const auto messages = as_rows(source)) {
+    auto joined = as_columns(*messages);
+    return joined ? std::move(joined) : messages;
+  }
   const std::string_view text = source.text();
   const std::string_view begin = text.substr(0, 20'000);
   const bool may =

@@ -1,5 +1,5 @@
 // Logs whose numbers stand in no columns, as columns: the serial monitor's stamp before each row, a label
-// before each number (p:1.2 x=3, JSON), brackets round a row, seconds and nanoseconds apart.
+// before each number (p:1.2 x=3, JSON), brackets round a row, seconds and nanoseconds apart, ROS messages.
 #pragma once
 
 #include <optional>

@@ -114,6 +114,20 @@ def in_text(columns, layout, dialect, rate):
     return end.join(lines + [""]).encode(encoding, "replace")
 
 
+def in_messages(columns, flow=False, cut=0):
+    """As `ros2 topic echo` prints a message with its stamp and an array; `flow`: as `rostopic echo` does."""
+    seconds, rest = ("secs", "nsecs") if flow else ("sec", "nanosec")
+    (_, _, stamps), (_, _, command), *arrays = columns
+    text = ""
+    for k, stamp in enumerate(stamps):
+        whole, part = divmod(int(stamp), 10**9)
+        values = [cells[k] for _, _, cells in arrays]
+        text += (f"header:\n  stamp:\n    {seconds}: {whole}\n    {rest}: {part}\n  frame_id: 'base, link'\n"
+                 f"command_V: {command[k]}\nreadings:" +
+                 (f" [{', '.join(values)}]\n" if flow else "\n" + "".join(f"- {value}\n" for value in values)) + "---\n")
+    return text[:len(text) - cut]
+
+
 def in_xlsx(path, columns, words=()):
     def cell(text):
         try:
@@ -201,6 +215,28 @@ class Corpus(unittest.TestCase):
 
         count = self.hold([case(number) for number in range(COUNT)])
         self.assertGreater(count["right"], COUNT * 2 // 3, count)
+
+    def test_ros_messages(self):
+        columns = table_of(self.truth, "epoch ns", ("V", "bar", "%"))
+        for flow in (False, True):
+            (self.folder / "ros_11kg.txt").write_text(in_messages(columns, flow, 20 if flow else 0))
+            said = self.run_program("import", "ros_11kg.txt", "--rig", "rig.yaml", "--out", "read")
+            self.assertEqual(said.returncode, 0, said.stderr)
+            told = (self.folder / "read/dataset.yaml").read_text()
+            self.assertRegex(told, r'time: \{column: "header.stamp", unit: s')
+            told = told[:told.index("columns:")] + """columns:
+  time: {column: header.stamp, unit: s}
+  command: {column: command_V, unit: V}
+  muscle_pressure: {column: readings.0, unit: bar}
+  contraction: {column: readings.1, unit: "%"}
+""" + told[told.index("runs:"):]
+            (self.folder / "read/dataset.yaml").write_text(told)
+            said = self.run_program("replay", "read", "--json", "--out", "replayed")
+            self.assertEqual(said.returncode, 0, said.stderr)
+            gaps = json.loads(said.stdout)["runs"][0]["gaps"]
+            rows = len(self.truth["time_s"]) - (1 if flow else 0)  # the last one is cut
+            self.assertEqual([gap["rows"] for gap in gaps], [rows, rows])
+            self.assertLess(max(gap["rmse"] for gap in gaps), 0.02)
 
     def test_sheets_and_mat_files(self):
         def sheet(clock, units, words):
