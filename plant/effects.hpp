@@ -39,6 +39,15 @@
 
 namespace mckibben::plant {
 
+/// How much of what a side may remember a rig needs: the first numbers alone, or all.
+enum class Memories { none, few, all };
+
+template <class E>
+constexpr std::size_t further_of() {
+  if constexpr (RemembersMore<E>) return E::further_memories;
+  return 0;
+}
+
 /// Effects with parameters of type P.
 template <class P, class... Effect>
 class EffectSet {
@@ -69,12 +78,27 @@ class EffectSet {
            std::apply([](const auto&... effect) { return !(any(!effect.absent()) || ...); }, all);
   }
 
-  /// How many effects of the table have a memory, and whether one of them is switched on.
-  static constexpr std::size_t memories = (std::size_t{Remembers<Effect>} + ...);
-  bool remember() const {
-    bool one = laws.remember();
-    each([&]<class E>(const E&, auto, auto) { one = one || Remembers<E>; });
-    return one;
+  /// How many effects of the table have a memory. These numbers come first; then one of a regulator; then
+  /// what effects remember besides; then what laws of a user's own do, and the time.
+  static constexpr std::size_t memories = (std::size_t{Remembers<Effect>} + ...), few_memories = memories + 1,
+                               from_laws = few_memories + (further_of<Effect>() + ...),
+                               all_memories = from_laws + law_slots;
+  /// Where what an effect remembers besides begins.
+  template <class E>
+  static constexpr std::size_t further_from = [] {
+    std::size_t from = few_memories;
+    bool before = true;
+    ((before = before && !std::same_as<E, Effect>, from += before ? further_of<Effect>() : 0), ...);
+    return from;
+  }();
+  Memories memories_used() const {
+    Memories used = laws.remember() ? Memories::all : Memories::none;
+    each([&]<class E>(const E& effect, auto, auto) {
+      if constexpr (Remembers<E>) used = std::max(used, Memories::few);
+      if constexpr (RemembersMore<E>)
+        if (effect.remembers_more()) used = Memories::all;
+    });
+    return used;
   }
   /// Working sizes of the memories, in their own units.
   static constexpr std::array<double, memories> memory_sizes = [] {
@@ -88,20 +112,23 @@ class EffectSet {
   }();
 
   // What laws are handed is a copy: an instant whose address is taken stands in memory, laws or not.
-  // Of memories, the first ones are theirs, the next ones those of laws; what follows is not.
-
   template <class S, std::size_t slots>
   Pull<S> pull(const Instant<S>& now, const std::array<S, slots>& memory) const {
     Pull<S> sum{S(0.0), S(0.0)};
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (declares<E>(Hook::pull)) {
-        const S pull_N = effect.pull_N(now, recall(memory, slot));
+        const S pull_N = [&] {
+          if constexpr (RemembersMore<E>)
+            return effect.pull_N(now, memory[slot], further<E>(memory));
+          else
+            return effect.pull_N(now, recall(memory, slot));
+        }();
         sum.all_N = select(on, S(sum.all_N + pull_N), sum.all_N);
         if constexpr (ActsOnLoad<E>) sum.on_load_N = select(on, S(sum.on_load_N + pull_N), sum.on_load_N);
       }
     });
     if (!laws.list.empty()) {
-      const Pull<S> own = laws.pull(Instant<S>(now), std::array(memory), memories);
+      const Pull<S> own = laws.pull(Instant<S>(now), std::array(memory), from_laws);
       sum = {sum.all_N + own.all_N, sum.on_load_N + own.on_load_N};
     }
     return sum;
@@ -115,7 +142,7 @@ class EffectSet {
     });
     if (!laws.list.empty())
       product = product *
-                (1.0 + laws.sum(LawTarget::friction_factor, Instant<S>(now), std::array(memory), memories));
+                (1.0 + laws.sum(LawTarget::friction_factor, Instant<S>(now), std::array(memory), from_laws));
     return product;
   }
   template <class S>
@@ -143,7 +170,7 @@ class EffectSet {
       if constexpr (declares<E>(Hook::outflow)) sum = select(on, S(sum + effect.outflow_kg_per_s(now)), sum);
     });
     if (!laws.list.empty()) {
-      const S own = laws.sum(LawTarget::outflow, Instant<S>(now), std::array(memory), memories);
+      const S own = laws.sum(LawTarget::outflow, Instant<S>(now), std::array(memory), from_laws);
       sum = sum + own;
     }
     return sum;
@@ -212,17 +239,25 @@ class EffectSet {
     return sum;
   }
   template <class S, std::size_t slots>
-  std::array<S, memories + law_slots> memory_rates(const Instant<S>& now, const Inflow<S>& inflow,
-                                                   const std::array<S, slots>& memory) const {
-    std::array<S, memories + law_slots> rates;
+  std::array<S, slots> memory_rates(const Instant<S>& now, const Inflow<S>& inflow,
+                                    const std::array<S, slots>& memory) const {
+    std::array<S, slots> rates;
     rates.fill(S(0.0));
     each([&]<class E>(const E& effect, auto on, auto slot) {
       if constexpr (Remembers<E>)
         rates[slot] = select(on, S(effect.memory_rate(now, inflow, memory[slot])), rates[slot]);
+      if constexpr (RemembersMore<E>)
+        if (effect.remembers_more()) {
+          const auto more = effect.further_rates(now, further<E>(memory));
+          for (std::size_t i = 0; i < more.size(); ++i) {
+            S& rate = rates[further_from<E> + i];
+            rate = select(on, more[i], rate);
+          }
+        }
     });
     if (!laws.list.empty()) {
-      const auto own = laws.memory_rates(Instant<S>(now), std::array(memory), memories);
-      std::copy(own.begin(), own.end(), rates.begin() + memories);
+      const auto own = laws.memory_rates(Instant<S>(now), std::array(memory), from_laws);
+      std::copy(own.begin(), own.end(), rates.begin() + from_laws);
     }
     return rates;
   }
@@ -230,10 +265,10 @@ class EffectSet {
   /// What laws add to the pressure that the valve follows [Pa], and to the rise that is read [m].
   template <class S, std::size_t slots>
   S command_shift_Pa(const Instant<S>& now, const std::array<S, slots>& memory) const {
-    return laws.sum(LawTarget::command, now, memory, memories);
+    return laws.sum(LawTarget::command, now, memory, from_laws);
   }
   double reading_shift_m(const Instant<double>& now, const auto& memory) const {
-    return laws.sum(LawTarget::reading, now, memory, memories);
+    return laws.sum(LawTarget::reading, now, memory, from_laws);
   }
 
   /// What effects keep between ticks.
@@ -289,6 +324,13 @@ class EffectSet {
     return (std::size_t{0} + ... + std::size_t{Remembers<std::tuple_element_t<before, Table>>});
   }
   (std::make_index_sequence<index>());
+
+  template <class E, class S, std::size_t slots>
+  static Further<E, S> further(const std::array<S, slots>& memory) {
+    Further<E, S> more;
+    std::copy_n(memory.begin() + further_from<E>, more.size(), more.begin());
+    return more;
+  }
 
   // Calls f(effect, on, slot) for each effect that is switched on; `on`: for which of several rigs it is.
   template <class F>

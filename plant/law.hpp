@@ -76,10 +76,11 @@ struct LawStep {
 };
 
 /// Limits that keep a law as quick as one that is compiled.
-inline constexpr std::size_t most_law_parameters = 6, most_law_memories = 2, most_law_steps = 64,
+inline constexpr std::size_t most_law_parameters = 6, most_law_memories = 12, most_law_steps = 64,
                              deepest_law_stack = 16;
-/// Of a rig's side: laws at work, laws in its file, and how many numbers those at work remember together.
-inline constexpr std::size_t most_laws = 4, most_written_laws = 16, law_slots = 4;
+/// Of a rig's side: laws at work, laws in its file, and how many numbers those at work remember together,
+/// with the time.
+inline constexpr std::size_t most_laws = 4, most_written_laws = 16, law_slots = most_law_memories + 1;
 
 using LawProgram = std::vector<LawStep>;
 

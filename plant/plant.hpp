@@ -101,7 +101,8 @@ class PlantOf {
   }
 
   /// Whether something has a memory: an effect that is on, or a regulator.
-  bool remembers() const { return remembers_; }
+  bool remembers() const { return memories_ != Memories::none; }
+  Memories memories() const { return memories_; }
 
   /// Whether gas has a temperature of its own, which its ledger follows.
   bool polytropic() const { return polytropic_; }
@@ -172,7 +173,8 @@ class PlantOf {
   SideOf<P> side_;
   std::optional<SideOf<P>> opposite_;
   LinkOf<P> link_{};
-  bool remembers_, polytropic_, springs_;  // an effect with a memory, gas not isothermal, a return spring
+  Memories memories_;
+  bool polytropic_, springs_;  // gas not isothermal, a return spring
   P load_kg_ = 0.0, radius_m_, opposite_share_ = 0.0, mass_kg_, damping_N_s_per_m_;
   P spring_from_ = 0.0;  // the contraction ratio that its rise counts from
 };
@@ -186,7 +188,7 @@ inline Plant plant_of(const Rig& rig, double load_kg = 0.0) {
 template <class P>
 PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
     : side_(rig, (load_kg + rig.joint.load_offset_kg) * gravity_m_per_s2),
-      remembers_(rig.remembers()),
+      memories_(rig.memories()),
       polytropic_(rig.effects.warm()),
       springs_(rig.joint.has_spring()),
       load_kg_(load_kg),
@@ -199,7 +201,7 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<
     : side_(rig, P(0.0)),
       opposite_(std::in_place, opposite, P(0.0)),
       link_(link),
-      remembers_(rig.remembers() || opposite.remembers()),
+      memories_(std::max(rig.memories(), opposite.memories())),
       polytropic_(rig.effects.warm() || opposite.effects.warm()),
       springs_(rig.joint.has_spring()),
       radius_m_(rig.joint.wheel_radius_m),

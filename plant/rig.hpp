@@ -194,8 +194,11 @@ struct RigOf {
           "how long the first command is held before the first reading (rounded to ticks)");
   }
   CommandUnit command_unit() const { return valve.command_unit; }
-  /// Whether something in it has a memory: an effect, or a regulator that swings.
-  bool remembers() const { return effects.remember() || valve.swings(); }
+  /// What of it has a memory: effects, laws, or a regulator that swings.
+  Memories memories() const {
+    return std::max(effects.memories_used(), valve.swings() ? Memories::few : Memories::none);
+  }
+  bool remembers() const { return memories() != Memories::none; }
 
   template <class Report>
   void rules(Report& report) const {

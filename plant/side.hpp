@@ -195,7 +195,7 @@ template <class P>
 template <class S>
 S SideOf<P>::flow_to_follow(const SideMemory<S>& memory, const S& error_Pa, const S& hose_flow) const {
   const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
-  const S followed_Pa = swings_ ? memory.back() : error_Pa;
+  const S followed_Pa = swings_ ? memory[regulator_memory] : error_Pa;
   return followed_Pa * (quickness_per_s_ * rig_.valve.volume_m3 / (n * gas_energy_J_per_kg_)) + hose_flow;
 }
 
@@ -317,10 +317,10 @@ void SideOf<P>::remember(const Stroke<S>& stroke, const SideState<S>& state, con
                          const HeldSideOf<H>& held, const S& supply_flow, SideMoment<S>& now) const {
   Inflow<S> all = inflow(stroke, now, supply_flow);
   all.pressure_rate_Pa_per_s = muscle_pressure_rate_Pa_per_s(stroke, state, now);
-  const auto of_effects = rig_.effects.memory_rates(instant(stroke, state, held, now), all, memory);
-  std::copy(of_effects.begin(), of_effects.end(), now.memory_rates.begin());
-  now.memory_rates.back() =
-      swings_ ? S(catching_up_per_s_ * (now.pressure_error_Pa - memory.back())) : S(0.0);
+  now.memory_rates = rig_.effects.memory_rates(instant(stroke, state, held, now), all, memory);
+  if (swings_)
+    now.memory_rates[regulator_memory] =
+        catching_up_per_s_ * (now.pressure_error_Pa - memory[regulator_memory]);
 }
 
 template <class P>

@@ -29,11 +29,18 @@ struct State {
   SideState<S> side, opposite;
 };
 
-/// What effects with a memory remember on one side, in the order of their table; what laws of a user's own
-/// do, in sizes of their own, and the time [s]; and last the pressure error [Pa] that a regulator of second
-/// order has come to follow; all zero at the start.
+/// What one side remembers (EffectSet::memories): of a regulator of second order the pressure error [Pa] that
+/// it has come to follow; of laws their memories in sizes of their own, and the time [s]; all zero at the
+/// start.
 template <class S>
-using SideMemory = std::array<S, Effects::memories + law_slots + 1>;
+using SideMemory = std::array<S, Effects::all_memories>;
+inline constexpr std::size_t regulator_memory = Effects::memories;
+/// Of that what integrators carry: the first so many.
+constexpr int carried(Memories used) {
+  return static_cast<int>(used == Memories::none  ? 0
+                          : used == Memories::few ? Effects::few_memories
+                                                  : Effects::all_memories);
+}
 template <class S>
 struct Memory {
   SideMemory<S> side, opposite;
@@ -60,13 +67,13 @@ struct Ledger {
 };
 
 /// Components of a state with one muscle, with two, and of what else an integrator may carry.
-inline constexpr int single_size = 5, pair_size = 8, memory_size = Effects::memories + law_slots + 1;
+inline constexpr int single_size = 5, pair_size = 8;
 /// Working sizes of memories, in their own units.
 inline constexpr auto memory_sizes = [] {
-  std::array<double, memory_size> sizes{};
+  SideMemory<double> sizes{};
   sizes.fill(1.0);
   std::copy(Effects::memory_sizes.begin(), Effects::memory_sizes.end(), sizes.begin());
-  sizes.back() = 1e5;
+  sizes[regulator_memory] = 1e5;
   return sizes;
 }();
 inline constexpr int ledger_size = 16, isothermal_ledger_size = 9;

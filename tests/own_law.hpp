@@ -58,4 +58,17 @@ inline plant::OwnLawOf<double> own_law(
   return own;
 }
 
+/// Twelve equal springs that creep, and one that waits for a time that does not come.
+inline plant::OwnLawOf<double> law_of_twelve() {
+  const law::Dimension newton_per_metre = law::newton.times(law::metre, -1.0);
+  std::string sum = "0 * x * tanh(t / tau)";
+  std::vector<std::pair<std::string, std::string>> memories;
+  for (int i = 1; i <= 12; ++i) {
+    memories.emplace_back("q" + std::to_string(i), "(x - q" + std::to_string(i) + ") / tau");
+    sum += " + q" + std::to_string(i) + " - x";
+  }
+  return own_law(plant::LawTarget::force, "k * (" + sum + ")",
+                 {{"k", newton_per_metre, 50.0}, {"tau", law::second, 0.4}}, memories);
+}
+
 }  // namespace mckibben

@@ -27,6 +27,7 @@ struct ParameterFinder {
                   std::string_view) {
     found.push_back({key, &value, lowest, highest});
   }
+  void operator()(std::string_view, int&, int, int, std::string_view) {}  // a choice
   template <class T>
   void operator()(std::string_view key, T& value, std::string_view) {
     if constexpr (std::is_enum_v<T>)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 
@@ -15,10 +16,19 @@ concept Remembers = requires {
   E::memory_unit;
 };
 
+/// Remembers more than one number; what its functions get of the others is an array of so many.
+template <class E>
+concept RemembersMore = Remembers<E> && requires {
+  E::further_memories;
+};
+
 template <class E>
 constexpr bool declares(Hook hook) {
   return std::find(E::hooks.begin(), E::hooks.end(), hook) != E::hooks.end();
 }
+
+template <class E, class S>
+using Further = std::array<S, E::further_memories>;
 
 /// Whether an effect has the function of a hook, as it is called.
 template <class E>
@@ -27,9 +37,14 @@ constexpr bool has(Hook hook) {
   using enum Hook;
   switch (hook) {
     case pull:
-      return requires(const E& e, Now now, double m) {
-        { e.pull_N(now, m) } -> std::same_as<double>;
-      };
+      if constexpr (RemembersMore<E>)
+        return requires(const E& e, Now now, double m, const Further<E, double>& more) {
+          { e.pull_N(now, m, more) } -> std::same_as<double>;
+        };
+      else
+        return requires(const E& e, Now now, double m) {
+          { e.pull_N(now, m) } -> std::same_as<double>;
+        };
     case friction_factor:
       return requires(const E& e, Now now, double m) {
         { e.friction_factor(now, m) } -> std::same_as<double>;

@@ -2,6 +2,7 @@
 // one quantity of the plant, as an effect does, and is absent while its first parameter is 0.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -48,8 +49,7 @@ class OwnLawsOf {
     std::size_t on = 0;
     for (const auto& law : list) on += law.absent() ? 0 : 1;
     if (on > most_laws) report("", "at most 4 laws can be at work in a rig");
-    if (places_taken() > law_slots)
-      report("", "laws at work in a rig remember at most 4 numbers, time included");
+    if (places_taken() > most_law_memories) report("", too_many);
   }
 
   /// Whether a law is at work, of one of several rigs.
@@ -59,12 +59,14 @@ class OwnLawsOf {
     return false;
   }
   bool absent() const { return !any_on(); }
-  bool remember() const { return places_taken() > 0; }
+  bool remember() const {
+    return std::ranges::any_of(list,
+                               [](const auto& law) { return law.text->slots() > 0 && any(!law.absent()); });
+  }
 
   /// Gives those at work places for what they remember. Throws std::invalid_argument if there are too few.
   void take_places() {
-    if (places_taken() > law_slots)
-      throw std::invalid_argument("laws at work in a rig remember at most 4 numbers, time included");
+    if (places_taken() > most_law_memories) throw std::invalid_argument(too_many);
     std::size_t next = 0;
     for (auto& law : list) {
       law.place = next;
@@ -131,15 +133,13 @@ class OwnLawsOf {
   }
 
  private:
+  static constexpr const char* too_many = "laws at work in a rig remember at most 12 numbers";
+
   std::size_t places_taken() const {
     std::size_t taken = 0;
-    bool time = false;
-    for (const auto& law : list) {
-      if (!any(!law.absent())) continue;
-      taken += law.text->memories.size();
-      time = time || law.text->knows_time;
-    }
-    return taken + (time ? 1 : 0);
+    for (const auto& law : list)
+      if (any(!law.absent())) taken += law.text->memories.size();
+    return taken;
   }
   template <class S, std::size_t slots>
   static LawNumbers<S, P> numbers(const OwnLawOf<P>& law, const Instant<S>& now,

@@ -17,9 +17,9 @@
 namespace mckibben::engine {
 namespace {
 
-template <bool remembers, int sides, Books books>
+template <plant::Memories memories, int sides, Books books>
 class ErkBatch final : public Batch {
-  using Lane = LaneProblem<remembers, sides, books>;
+  using Lane = LaneProblem<memories, sides, books>;
   using L = typename Lane::L;
   using V = typename Lane::V;
   using One = typename Lane::One;
@@ -304,13 +304,22 @@ class ErkBatch final : public Batch {
 }  // namespace
 
 std::unique_ptr<Batch> make_batch(const BatchShape& shape, double tolerance, std::size_t lanes) {
-  const auto make = [&]<int sides, Books books>() -> std::unique_ptr<Batch> {
-    if (shape.remembers) return std::make_unique<ErkBatch<true, sides, books>>(shape.mixed, tolerance, lanes);
-    return std::make_unique<ErkBatch<false, sides, books>>(shape.mixed, tolerance, lanes);
+  using plant::Memories;
+  const auto make = [&]<Memories memories, int sides, Books books>() -> std::unique_ptr<Batch> {
+    return std::make_unique<ErkBatch<memories, sides, books>>(shape.mixed, tolerance, lanes);
   };
-  if (shape.pairs) return make.template operator()<2, Books::none>();
-  return shape.keep_ledger ? make.template operator()<1, Books::isothermal>()
-                           : make.template operator()<1, Books::none>();
+  if (shape.memories == Memories::all) {
+    if (shape.pairs || shape.keep_ledger)
+      throw std::logic_error("in lanes such memories are for one muscle without a ledger");
+    return make.template operator()<Memories::all, 1, Books::none>();
+  }
+  const auto with = [&]<Memories memories> {
+    if (shape.pairs) return make.template operator()<memories, 2, Books::none>();
+    return shape.keep_ledger ? make.template operator()<memories, 1, Books::isothermal>()
+                             : make.template operator()<memories, 1, Books::none>();
+  };
+  return shape.memories == Memories::none ? with.template operator()<Memories::none>()
+                                          : with.template operator()<Memories::few>();
 }
 
 }  // namespace mckibben::engine

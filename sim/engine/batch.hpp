@@ -61,8 +61,8 @@ class Batch {
 
 /// What all rigs of a batch have. No exact stick and slip: that switches each rig at a time of its own.
 struct BatchShape {
-  bool pairs = false;        ///< of muscles
-  bool remembers = false;    ///< effects with memory
+  bool pairs = false;  ///< of muscles
+  plant::Memories memories = plant::Memories::none;
   bool keep_ledger = false;  ///< of isothermal gas, not of pairs; at some cost
   bool mixed = false;        ///< rigs differ in kind; at some cost
 

@@ -22,11 +22,8 @@ struct Unknowns {
     if constexpr (L::sides == 2) side(at.opposite, state.opposite);
     memory.side.fill(0.0);
     memory.opposite.fill(0.0);
-    if constexpr (L::remembers) {
-      for (Number& one : memory.side) one = next(y[count_]);
-      if constexpr (L::sides == 2)
-        for (Number& one : memory.opposite) one = next(y[count_]);
-    }
+    for (std::size_t i = 0; i < L::of_side; ++i) memory.side[i] = next(y[count_]);
+    for (std::size_t i = 0; L::sides == 2 && i < L::of_side; ++i) memory.opposite[i] = next(y[count_]);
   }
 
   /// The unknown that comes next.
@@ -54,11 +51,9 @@ void for_each_rate(const Rates& rates, const Moment& now, const Row& row) {
   };
   side(rates.side);
   if constexpr (L::sides == 2) side(rates.opposite);
-  if constexpr (L::remembers) {
-    for (const auto& rate : now.memory_rates) row(rate);
-    if constexpr (L::sides == 2)
-      for (const auto& rate : now.opposite.memory_rates) row(rate);
-  }
+  for (std::size_t i = 0; i < L::of_side; ++i) row(now.memory_rates[i]);
+  if constexpr (L::sides == 2)
+    for (std::size_t i = 0; i < L::of_side; ++i) row(now.opposite.memory_rates[i]);
 }
 
 /// The same with those of the ledger.

@@ -3,10 +3,10 @@
 
 namespace mckibben::engine {
 
-template <bool remembers, int sides, Books books>
-Mask LaneProblem<remembers, sides, books>::rates(const plant::PlantOf<Lanes>& plant,
-                                                 const plant::HeldOf<Lanes>& held, const Lanes& by,
-                                                 N_Vector y, N_Vector dydt, std::size_t block) {
+template <plant::Memories memories, int sides, Books books>
+Mask LaneProblem<memories, sides, books>::rates(const plant::PlantOf<Lanes>& plant,
+                                                const plant::HeldOf<Lanes>& held, const Lanes& by, N_Vector y,
+                                                N_Vector dydt, std::size_t block) {
   Mask inside;
   on_this_machine([&] {
     // Each by itself: for a block this long the compiler would take a slow instruction.
@@ -15,11 +15,12 @@ Mask LaneProblem<remembers, sides, books>::rates(const plant::PlantOf<Lanes>& pl
     state.side = {at(y, 2, block), at(y, 3, block), at(y, 4, block)};
     if constexpr (sides == 2) state.opposite = {at(y, 5, block), at(y, 6, block), at(y, 7, block)};
     plant::Memory<Lanes> memory;
-    const std::size_t each = memory.side.size();
+    memory.side.fill(Lanes(0.0));
+    if constexpr (sides == 2) memory.opposite.fill(Lanes(0.0));
+    constexpr std::size_t each = L::of_side;
     for (std::size_t i = 0; i < each; ++i) {
-      memory.side[i] = remembers ? at(y, (L::states + i) % L::size, block) : Lanes(0.0);
-      if constexpr (sides == 2)
-        memory.opposite[i] = remembers ? at(y, (L::states + each + i) % L::size, block) : Lanes(0.0);
+      memory.side[i] = at(y, L::states + i, block);
+      if constexpr (sides == 2) memory.opposite[i] = at(y, L::states + each + i, block);
     }
     inside = plant.template in_domain<sides>(state);
     const auto now = plant.template moment<sides>(state, memory, held);
@@ -34,11 +35,10 @@ Mask LaneProblem<remembers, sides, books>::rates(const plant::PlantOf<Lanes>& pl
       at(dydt, 6, block) = by * slopes.opposite.muscle_pressure_Pa;
       at(dydt, 7, block) = by * slopes.opposite.bristle_m;
     }
-    if constexpr (remembers)
-      for (std::size_t i = 0; i < each; ++i) {
-        at(dydt, L::states + i, block) = by * now.memory_rates[i];
-        if constexpr (sides == 2) at(dydt, L::states + each + i, block) = by * now.opposite.memory_rates[i];
-      }
+    for (std::size_t i = 0; i < each; ++i) {
+      at(dydt, L::states + i, block) = by * now.memory_rates[i];
+      if constexpr (sides == 2) at(dydt, L::states + each + i, block) = by * now.opposite.memory_rates[i];
+    }
     if constexpr (L::audits) {
       const auto ledger = plant.template ledger_rates<sides>(state, now, plant::Ledger<Lanes>{});
       const std::array entries{ledger.air_drawn_kg, ledger.air_vented_kg,          ledger.air_leaked_kg,
@@ -51,11 +51,12 @@ Mask LaneProblem<remembers, sides, books>::rates(const plant::PlantOf<Lanes>& pl
   return inside;
 }
 
-template struct LaneProblem<false>;
-template struct LaneProblem<true>;
-template struct LaneProblem<false, 2>;
-template struct LaneProblem<true, 2>;
-template struct LaneProblem<false, 1, Books::isothermal>;
-template struct LaneProblem<true, 1, Books::isothermal>;
+template struct LaneProblem<plant::Memories::none>;
+template struct LaneProblem<plant::Memories::few>;
+template struct LaneProblem<plant::Memories::all>;
+template struct LaneProblem<plant::Memories::none, 2>;
+template struct LaneProblem<plant::Memories::few, 2>;
+template struct LaneProblem<plant::Memories::none, 1, Books::isothermal>;
+template struct LaneProblem<plant::Memories::few, 1, Books::isothermal>;
 
 }  // namespace mckibben::engine

@@ -9,10 +9,10 @@
 
 namespace mckibben::engine {
 
-template <bool remembers, int sides = 1, Books books = Books::none>
+template <plant::Memories memories, int sides = 1, Books books = Books::none>
 struct LaneProblem {
   static_assert(books != Books::polytropic, "rigs whose gas has a temperature keep their ledger alone");
-  using L = Layout<sides, remembers, books>;
+  using L = Layout<sides, memories, books>;
   struct V : LaneVector<L::size, L::steering, L::counted> {
     using layout = L;
   };
@@ -39,11 +39,12 @@ struct LaneProblem {
 };
 
 // The laws in lanes are what takes longest to compile: once, in lane_problem.cpp.
-extern template struct LaneProblem<false>;
-extern template struct LaneProblem<true>;
-extern template struct LaneProblem<false, 2>;
-extern template struct LaneProblem<true, 2>;
-extern template struct LaneProblem<false, 1, Books::isothermal>;
-extern template struct LaneProblem<true, 1, Books::isothermal>;
+extern template struct LaneProblem<plant::Memories::none>;
+extern template struct LaneProblem<plant::Memories::few>;
+extern template struct LaneProblem<plant::Memories::all>;
+extern template struct LaneProblem<plant::Memories::none, 2>;
+extern template struct LaneProblem<plant::Memories::few, 2>;
+extern template struct LaneProblem<plant::Memories::none, 1, Books::isothermal>;
+extern template struct LaneProblem<plant::Memories::few, 1, Books::isothermal>;
 
 }  // namespace mckibben::engine

@@ -2,6 +2,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include <sim/engine/jacobian.hpp>
 #include <sim/engine/linear.hpp>
 
@@ -23,6 +25,13 @@ std::vector<Remembered> memories_of(const plant::SideOf<double>& side, const std
   };
   const plant::Effects& effects = side.rig().effects;
   std::apply([&](const auto&... effect) { (add(effect), ...); }, effects.all);
+  all.push_back({{"regulator_error" + suffix + "_Pa", "Pa"}});
+  const auto add_further = [&]<class E>(const E&) {
+    if constexpr (plant::RemembersMore<E>)
+      for (std::size_t i = 0; i < E::further_memories; ++i)
+        all.push_back({{fmt::format("{}_{}{}", E::name, i + 2, suffix), std::string(E::memory_unit)}});
+  };
+  std::apply([&](const auto&... effect) { (add_further(effect), ...); }, effects.all);
   const std::size_t laws = all.size();
   all.resize(laws + plant::law_slots, {{"time" + suffix + "_s", "s"}});
   for (const auto& law : effects.laws.list) {
@@ -32,7 +41,6 @@ std::vector<Remembered> memories_of(const plant::SideOf<double>& side, const std
       all[laws + law.place + i] = {{law.text->name + "." + memory.name + suffix, memory.unit}, memory.size};
     }
   }
-  all.push_back({{"regulator_error" + suffix + "_Pa", "Pa"}});
   return all;
 }
 
@@ -190,8 +198,9 @@ Linear linearise(const plant::Plant& plant, const Flow& at, const plant::Held& h
   if (!plant.in_domain(at.state)) throw std::invalid_argument("linearise: outside the domain of the laws");
   // Only the calculation of one kind of rig has to be compiled for each number of muscles: what is not at
   // work is dropped.
-  if (plant.opposite()) return Linearising<Layout<2, true, Books::none>>(plant, at, held, current_mA).result;
-  return Linearising<Layout<1, true, Books::none>>(plant, at, held, current_mA).result;
+  if (plant.opposite())
+    return Linearising<Layout<2, plant::Memories::all, Books::none>>(plant, at, held, current_mA).result;
+  return Linearising<Layout<1, plant::Memories::all, Books::none>>(plant, at, held, current_mA).result;
 }
 
 }  // namespace mckibben::engine

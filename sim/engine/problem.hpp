@@ -28,12 +28,13 @@ enum class Books { none, isothermal, polytropic };
 inline constexpr int counted_memories = 5;
 
 /// Which components there are.
-template <int sides_, bool remembers_, Books books_>
+template <int sides_, plant::Memories memories_, Books books_>
 struct Layout {
   static constexpr int sides = sides_;
-  static constexpr bool remembers = remembers_, audits = books_ != Books::none;
+  static constexpr int of_side = plant::carried(memories_);  ///< memories
+  static constexpr bool remembers = of_side > 0, audits = books_ != Books::none;
   static constexpr int states = sides == 1 ? plant::single_size : plant::pair_size;
-  static constexpr int memories = remembers ? sides * plant::memory_size : 0;
+  static constexpr int memories = sides * of_side;
   static constexpr int steering = states + memories;
   /// What the error norm is a mean over: a number that a further effect does not change, so that rigs without
   /// it are integrated in the same steps.
@@ -42,8 +43,7 @@ struct Layout {
                                  : books_ == Books::isothermal ? plant::isothermal_ledger_size
                                                                : plant::ledger_size;
   static constexpr int size = steering + entries;
-  static constexpr std::size_t state_bytes = states * sizeof(double),
-                               memory_bytes = memories * sizeof(double),
+  static constexpr std::size_t state_bytes = states * sizeof(double), memory_bytes = of_side * sizeof(double),
                                ledger_bytes = entries * sizeof(double);
 };
 
@@ -51,7 +51,7 @@ struct Layout {
 template <class L>
 constexpr double size_of(int component) {
   if (component < L::states) return working_size[static_cast<std::size_t>(component)];
-  return plant::memory_sizes[static_cast<std::size_t>((component - L::states) % plant::memory_size)];
+  return plant::memory_sizes[static_cast<std::size_t>((component - L::states) % L::of_side)];
 }
 
 template <class L>
@@ -83,7 +83,7 @@ class Problem {
 
   static plant::Memory<double> memory_of(const double* y) {
     plant::Memory<double> memory{};
-    if constexpr (L::remembers) std::memcpy(&memory, y + L::states, L::memory_bytes);
+    load_memory(y, memory);
     return memory;
   }
 
@@ -95,13 +95,13 @@ class Problem {
 
   static void store(const Flow& flow, double* y) {
     put(flow.state, y);
-    if constexpr (L::remembers) std::memcpy(y + L::states, &flow.memory, L::memory_bytes);
+    put(flow.memory, y);
     if constexpr (L::audits) std::memcpy(y + L::steering, &flow.ledger, L::ledger_bytes);
   }
 
   static void load(const double* y, Flow& flow) {
     std::memcpy(&flow.state, y, L::state_bytes);
-    if constexpr (L::remembers) std::memcpy(&flow.memory, y + L::states, L::memory_bytes);
+    load_memory(y, flow.memory);
     if constexpr (L::audits) std::memcpy(&flow.ledger, y + L::steering, L::ledger_bytes);
   }
 
@@ -116,7 +116,7 @@ class Problem {
       plant::Memory<double> memories{};
       if (plant_.remembers()) memories.side = now.memory_rates;
       if constexpr (L::sides == 2) memories.opposite = now.opposite.memory_rates;
-      std::memcpy(dydt + L::states, &memories, L::memory_bytes);
+      put(memories, dydt);
     }
     if constexpr (L::audits) {
       const auto ledger = plant_.template ledger_rates<L::sides>(state, now, ledger_of(y));
@@ -126,6 +126,16 @@ class Problem {
   }
 
  private:
+  static void put(const plant::Memory<double>& memory, double* y) {
+    if constexpr (L::remembers) std::memcpy(y + L::states, memory.side.data(), L::memory_bytes);
+    if constexpr (L::remembers && L::sides == 2)
+      std::memcpy(y + L::states + L::of_side, memory.opposite.data(), L::memory_bytes);
+  }
+  static void load_memory(const double* y, plant::Memory<double>& memory) {
+    if constexpr (L::remembers) std::memcpy(memory.side.data(), y + L::states, L::memory_bytes);
+    if constexpr (L::remembers && L::sides == 2)
+      std::memcpy(memory.opposite.data(), y + L::states + L::of_side, L::memory_bytes);
+  }
   static void put(const plant::SideState<double>& side, double* y) {
     y[0] = side.valve_pressure_Pa;
     y[1] = side.muscle_pressure_Pa;

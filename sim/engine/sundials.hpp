@@ -17,24 +17,32 @@
 namespace mckibben::engine {
 
 /// The vectors that the methods work on. A kind of vector V offers layout, size, make(context), data(vector).
-template <int sides, bool remembers, Books books>
+template <int sides, plant::Memories memories, Books books>
 struct PlantVector
-    : FixedVector<Layout<sides, remembers, books>::size, Layout<sides, remembers, books>::steering,
-                  Layout<sides, remembers, books>::counted> {
-  using layout = Layout<sides, remembers, books>;
+    : FixedVector<Layout<sides, memories, books>::size, Layout<sides, memories, books>::steering,
+                  Layout<sides, memories, books>::counted> {
+  using layout = Layout<sides, memories, books>;
 };
 
 /// make(V*) for the vector V that a rig needs.
 template <class Make>
 auto with_vector(const plant::Plant& rig, bool keep_ledger, const Make& make) {
-  // With every component, ledger or not: pairs are few, and each kind of vector is compiled with each method.
-  if (rig.opposite()) return make(static_cast<PlantVector<2, true, Books::polytropic>*>(nullptr));
-  const auto with_books = [&]<bool remembers>(std::bool_constant<remembers>) {
-    if (!keep_ledger) return make(static_cast<PlantVector<1, remembers, Books::none>*>(nullptr));
-    if (rig.polytropic()) return make(static_cast<PlantVector<1, remembers, Books::polytropic>*>(nullptr));
-    return make(static_cast<PlantVector<1, remembers, Books::isothermal>*>(nullptr));
+  using plant::Memories;
+  const auto with = [&]<int sides, Memories memories, Books books> {
+    return make(static_cast<PlantVector<sides, memories, books>*>(nullptr));
   };
-  return rig.remembers() ? with_books(std::true_type{}) : with_books(std::false_type{});
+  // With every ledger: these are few, and each kind of vector is compiled with each method.
+  const bool all = rig.memories() == Memories::all;
+  if (rig.opposite() && all) return with.template operator()<2, Memories::all, Books::polytropic>();
+  if (rig.opposite()) return with.template operator()<2, Memories::few, Books::polytropic>();
+  if (all) return with.template operator()<1, Memories::all, Books::polytropic>();
+  const auto with_books = [&]<Memories memories> {
+    if (!keep_ledger) return with.template operator()<1, memories, Books::none>();
+    if (rig.polytropic()) return with.template operator()<1, memories, Books::polytropic>();
+    return with.template operator()<1, memories, Books::isothermal>();
+  };
+  return rig.remembers() ? with_books.template operator()<Memories::few>()
+                         : with_books.template operator()<Memories::none>();
 }
 
 /// A SUNDIALS context: one for each integrator, since it is not shared between threads.

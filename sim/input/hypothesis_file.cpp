@@ -80,7 +80,7 @@ std::vector<FieldInfo> hypothesis_fields() {
   FieldInfo memories;
   memories.key = "memories";
   memories.type = FieldInfo::Type::named;
-  memories.meaning = "at most 2 numbers that begin at 0: of each its rate of change, an expression";
+  memories.meaning = "at most 12 numbers that begin at 0: of each its rate of change, an expression";
   fields.push_back(memories);
   FieldInfo parameters = memories;
   parameters.key = "parameters";

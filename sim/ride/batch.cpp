@@ -21,11 +21,13 @@ BatchKey batch_key(std::span<const Rider> riders, const Drive& drive, const solv
   for (const Rider& rider : riders) {
     const plant::Plant& plant = rider.plant();
     key.shape.pairs = plant.opposite().has_value();
-    key.shape.remembers = key.shape.remembers || plant.remembers();
+    key.shape.memories = std::max(key.shape.memories, plant.memories());
     const bool no_ledger = key.shape.pairs || plant.rig().effects.warm();
     if (plant.has_events() || (keep_ledger && no_ledger)) key.in_lanes = false;
     plants.push_back(&plant);
   }
+  // Such rigs are few, and each kind of lanes takes long to compile.
+  if (key.shape.memories == plant::Memories::all && (key.shape.pairs || keep_ledger)) key.in_lanes = false;
   if (!key.in_lanes) return key;
   auto kind = engine::kind_of(plants);
   key.shape.mixed = !kind;

@@ -1,4 +1,5 @@
 // What goes on and what begins; see the header.
+#include <algorithm>
 #include <tuple>
 
 #include <sim/ride/changed.hpp>
@@ -8,14 +9,16 @@ namespace mckibben::ride {
 namespace {
 
 /// Which effects begin, by their memories; their plays are made new.
-Memories begun(const plant::Effects& before, const plant::Effects& now, plant::Effects::Plays& plays) {
-  Memories begin{};
+SomeMemories begun(const plant::Effects& before, const plant::Effects& now, plant::Effects::Plays& plays) {
+  SomeMemories begin{};
   std::size_t place = 0, slot = 0;
   const auto look_at = [&]<class E>(const E& effect) {
     const bool begins = !effect.absent() && before.get<E>().absent();
     if (begins) plays[place] = {};
     ++place;
     if constexpr (plant::Remembers<E>) begin[slot++] = begins;
+    if constexpr (plant::RemembersMore<E>)
+      std::fill_n(begin.begin() + plant::Effects::further_from<E>, E::further_memories, begins);
   };
   std::apply([&](const auto&... effect) { (look_at(effect), ...); }, now.all);
   return begin;
@@ -24,7 +27,7 @@ Memories begun(const plant::Effects& before, const plant::Effects& now, plant::E
 /// What goes on and begins on one muscle's side.
 void go_on(Rider& next, Muscle muscle, const plant::Effects& before, const plant::Effects& now,
            plant::Effects::Plays& plays, PastCommands& commands, double current_mA) {
-  const Memories begin = begun(before, now, plays);
+  const SomeMemories begin = begun(before, now, plays);
   auto& memory = next.now.flow.memory;
   for (std::size_t slot = 0; slot < begin.size(); ++slot)
     if (begin[slot]) (muscle == Muscle::first ? memory.side : memory.opposite)[slot] = 0.0;

@@ -94,7 +94,7 @@ void Rider::start(const Drive& given, double at_s) {
     // A muscle that a bench has held at a length has got used to it.
     const plant::State<double> at_rest_length = flow.state;
     flow.state.joint.contraction_ratio = given_ratio(plant_.rig(), *drive.contraction_ratio);
-    Memories all;
+    SomeMemories all;
     all.fill(true);
     rest_memories(*this, at_rest_length, 0.0, all);
   }

@@ -6,7 +6,7 @@
 namespace mckibben::ride {
 
 // Each memory follows a straight law of its own: its rate at two values tells where it would be at rest.
-void rest_memories(Rider& rider, const plant::State<double>& before, double off, const Memories& which,
+void rest_memories(Rider& rider, const plant::State<double>& before, double off, const SomeMemories& which,
                    Muscle muscle) {
   const plant::Plant& plant = rider.plant();
   if (!plant.remembers()) return;
@@ -22,7 +22,7 @@ void rest_memories(Rider& rider, const plant::State<double>& before, double off,
     return muscle == Muscle::first ? moment.memory_rates : moment.opposite.memory_rates;
   };
   const auto at_rest = rates(before, none), now = rates(flow.state, none);
-  for (std::size_t slot = 0; slot < none.size(); ++slot) {
+  for (std::size_t slot = 0; slot < static_cast<std::size_t>(plant::carried(plant.memories())); ++slot) {
     if (!which[slot]) continue;
     const double size = plant::memory_sizes[slot];
     plant::SideMemory<double> further = none;
@@ -74,7 +74,7 @@ void set_off(Rider& rider, const Underway& seen) {
     state.side.muscle_pressure_Pa = plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
     if (!now.drive.valve_pressure_Pa) state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa;
   }
-  Memories all;
+  SomeMemories all;
   all.fill(true);
   rest_memories(rider, at_rest, seen.memories, all);
   if (plant.has_events())

@@ -21,13 +21,13 @@ struct Underway {
 void set_off(Rider& rider, const Underway& seen);
 
 /// Of a muscle's memories, some.
-using Memories = plant::SideMemory<bool>;
+using SomeMemories = plant::SideMemory<bool>;
 
 enum class Muscle { first, opposite };
 
 /// Brings memories of a muscle to where they would come to rest, but for clocks (those whose rate is what it
 /// was in the state `before`), and so many of their working sizes `off` it.
-void rest_memories(Rider& rider, const plant::State<double>& before, double off, const Memories& which,
+void rest_memories(Rider& rider, const plant::State<double>& before, double off, const SomeMemories& which,
                    Muscle muscle = Muscle::first);
 
 }  // namespace mckibben::ride

@@ -14,7 +14,7 @@
 namespace mckibben::engine {
 
 class BoostCashKarp final : public Integrator {
-  using L = Layout<1, false, Books::none>;
+  using L = Layout<1, plant::Memories::none, Books::none>;
   using State = std::array<double, static_cast<std::size_t>(L::size)>;
   using Stepper =
       boost::numeric::odeint::controlled_runge_kutta<boost::numeric::odeint::runge_kutta_cash_karp54<State>>;

@@ -29,7 +29,7 @@ namespace {
 
 /// The library's own vector, for comparison.
 struct StockVector {
-  using layout = Layout<1, false, Books::none>;
+  using layout = Layout<1, plant::Memories::none, Books::none>;
   static constexpr int size = layout::size;
   static double* data(N_Vector v) { return NV_DATA_S(v); }
   static N_Vector make(SUNContext context) { return N_VNew_Serial(size, context); }
@@ -76,10 +76,10 @@ double right_hand_side_s() {
     for (int k = 0; k < ride_ticks; ++k) {
       now.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA(ride, k));
       integrator->advance(flow, now, 0.012 * k, 0.012 * (k + 1));
-      Problem<Layout<1, false, Books::none>>::store(flow, states.emplace_back().data());
+      Problem<Layout<1, plant::Memories::none, Books::none>>::store(flow, states.emplace_back().data());
       held.push_back(now);
     }
-    Problem<Layout<1, false, Books::none>> problem(plant);
+    Problem<Layout<1, plant::Memories::none, Books::none>> problem(plant);
     double best_s = 1.0;
     for (int trial = 0; trial < 50; ++trial) {
       double chain = 0.0;
@@ -199,7 +199,7 @@ void Lanes_(benchmark::State& state, double spread_kg) {
   state.counters["times_real_time"] = simulated_s / best_s;
 }
 
-BENCHMARK(Erk_<PlantVector<1, false, Books::none>>)
+BENCHMARK(Erk_<PlantVector<1, plant::Memories::none, Books::none>>)
     ->Name("erk/error_1e-6/own_vector")
     ->DenseRange(0, 1)
     ->UseManualTime()

@@ -5,6 +5,7 @@
 
 #include <sim/engine/jacobian.hpp>
 
+#include "own_law.hpp"
 #include "slopes.hpp"
 #include "switched_on.hpp"
 
@@ -16,29 +17,39 @@ TEST(Jacobian, IsTheSlopeOfTheEquations) {
                          plant::FrictionLaw::logarithmic, plant::FrictionLaw::power}) {
     plant::Rig rig;
     rig.friction.law = law;
-    expect_slopes<Layout<1, false, Books::isothermal>>(rig);
+    expect_slopes<Layout<1, plant::Memories::none, Books::isothermal>>(rig);
   }
 }
 
 TEST(Jacobian, KnowsEveryEffectAndWhatItRemembers) {
-  expect_slopes<Layout<1, true, Books::polytropic>>(plant::rig_with_all_effects());
+  expect_slopes<Layout<1, plant::Memories::few, Books::polytropic>>(plant::rig_with_all_effects());
   for (const auto& [name, rig] : plant::rigs_with_one_effect()) {
     SCOPED_TRACE(name);
     if (plant::Plant(rig, 15.0).remembers())
-      expect_slopes<Layout<1, true, Books::none>>(rig);
+      expect_slopes<Layout<1, plant::Memories::few, Books::none>>(rig);
     else
-      expect_slopes<Layout<1, false, Books::none>>(rig);
+      expect_slopes<Layout<1, plant::Memories::none, Books::none>>(rig);
   }
 }
 
+TEST(Jacobian, KnowsStopsAndLawsThatRememberMuch) {
+  plant::Rig rig = plant::rig_with_all_effects();
+  rig.effects.get<plant::BladderHysteresis>().stops = plant::BladderHysteresis::most_stops;
+  rig.effects.laws.list = {law_of_twelve()};
+  rig.effects.laws.take_places();
+  ASSERT_EQ(rig.memories(), plant::Memories::all);
+  expect_slopes<Layout<1, plant::Memories::all, Books::polytropic>>(rig);
+  expect_slopes<Layout<2, plant::Memories::all, Books::polytropic>>(rig);
+}
+
 TEST(Jacobian, KnowsTwoMuscles) {
-  expect_slopes<Layout<2, true, Books::polytropic>>(plant::Rig{});
-  expect_slopes<Layout<2, true, Books::polytropic>>(plant::rig_with_all_effects());
+  expect_slopes<Layout<2, plant::Memories::few, Books::polytropic>>(plant::Rig{});
+  expect_slopes<Layout<2, plant::Memories::few, Books::polytropic>>(plant::rig_with_all_effects());
 }
 
 TEST(Jacobian, IsRefusedOutsideTheDomain) {
   const plant::Plant plant(plant::Rig{}, 15.0);
-  const Problem<Layout<1, false, Books::none>> problem(plant);
+  const Problem<Layout<1, plant::Memories::none, Books::none>> problem(plant);
   const std::array<double, plant::single_size> y{0.9, 0.0, 1e5, 1e5, 0.0};
   Eigen::Matrix<double, plant::single_size, plant::single_size> result;
   EXPECT_FALSE(jacobian(problem, y.data(), result));

@@ -136,13 +136,22 @@ TEST(OwnLaw, WithoutSizeThereIsNone) {
 
 TEST(OwnLaw, RemembersNoMoreThanThereIsPlaceFor) {
   plant::Rig rig;
-  const auto timed =
-      own_law(LawTarget::force, "k * x * tanh(t / tau) + k * q",
-              {{"k", newton_per_metre, 1.0}, {"tau", law::second, 1.0}}, {{"q", "(x - q) / tau"}});
-  rig.effects.laws.list = {creep(1.0, 1.0), creep(1.0, 1.0), timed};
+  rig.effects.laws.list = {law_of_twelve()};
   EXPECT_NO_THROW(plant::Plant(rig, 12.0));
-  rig.effects.laws.list.push_back(timed);
+  rig.effects.laws.list.push_back(creep(1.0, 1.0));
   EXPECT_THROW(plant::Plant(rig, 12.0), std::invalid_argument);
+}
+
+// Twelve that creep alike are one with twelve times the stiffness; and beside the time.
+TEST(OwnLaw, TwelveMemoriesAreCarried) {
+  plant::Rig twelve, one;
+  twelve.effects.laws.list = {law_of_twelve()};
+  one.effects.laws.list = {creep(12.0 * 50.0, 0.4)};
+  for (const auto method : {solver::Method::erk, solver::Method::cvode}) {
+    const Flow a = after(twelve, 0.5, method), b = after(one, 0.5, method), none = after({}, 0.5, method);
+    EXPECT_GT(std::abs(a.state.joint.contraction_ratio - none.state.joint.contraction_ratio), 1e-3);
+    EXPECT_NEAR(a.state.joint.contraction_ratio, b.state.joint.contraction_ratio, 1e-8);
+  }
 }
 
 TEST(OwnLaw, OtherLawsInEachLaneAreEachTheirOwn) {

@@ -84,9 +84,9 @@ INSTANTIATE_TEST_SUITE_P(BothMethods, Regulator, testing::Values(Method::erk, Me
 TEST(Jacobian, KnowsRegulators) {
   plant::Rig banded = plant::quick_regulator(0.1);
   banded.valve.dead_band_Pa = 1e3;
-  expect_slopes<Layout<1, false, Books::isothermal>>(banded);
-  expect_slopes<Layout<1, true, Books::polytropic>>(plant::swinging_regulator(5.0, 0.7));
-  expect_slopes<Layout<2, true, Books::none>>(plant::swinging_regulator(5.0, 0.7));
+  expect_slopes<Layout<1, plant::Memories::none, Books::isothermal>>(banded);
+  expect_slopes<Layout<1, plant::Memories::few, Books::polytropic>>(plant::swinging_regulator(5.0, 0.7));
+  expect_slopes<Layout<2, plant::Memories::few, Books::none>>(plant::swinging_regulator(5.0, 0.7));
 }
 
 }  // namespace

@@ -225,7 +225,7 @@ void expect_same_law(const diagnose::Diagnosis& found) {
   own.laws.list.push_back(
       input::read_hypothesis(folder.write("law.yaml", law_yaml(measured(), found)).string(), inputs));
   ASSERT_FALSE(own.absent());
-  const std::array<double, plant::memory_size> memory{};
+  const plant::SideMemory<double> memory{};
   for (int i = 0; i < 50; ++i) {
     const double e = 0.005 * i, v = 0.01 * (i - 25);
     const plant::Instant<double> now{e,       0.3 * e, v,   1e4 * i, 3.0 * i, 101325.0,

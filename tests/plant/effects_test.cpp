@@ -200,10 +200,31 @@ TEST(Catalogue, HysteresisOfTheBladderGoesByTheWayAlone) {
     };
     now.speed_m_per_s = speed_m_per_s;
     const double far = go(0.0, 0.2);
-    EXPECT_NEAR(rubber.pull_N(now, far), -8.0 * way, 1e-6);
+    EXPECT_NEAR(rubber.pull_N(now, far, {}), -8.0 * way, 1e-6);
     now.speed_m_per_s = -speed_m_per_s;
-    EXPECT_NEAR(rubber.pull_N(now, go(far, 0.01 * std::log(2.0))), 0.0, 1e-3);
+    EXPECT_NEAR(rubber.pull_N(now, go(far, 0.01 * std::log(2.0)), {}), 0.0, 1e-3);
   }
+}
+
+// From rest, a way x bends a stop of width x_i to 1 - exp(-x/x_i): widths 5, 10 and 15 mm of three.
+TEST(Catalogue, StopsOfTheBladderAddUp) {
+  const BladderHysteresis rubber{.force_N = 9.0, .stroke_m = 0.01, .stops = 3};
+  Instant<double> now = Chance().instant();
+  now.speed_m_per_s = 0.1;
+  const double way_m = 0.012;
+  constexpr int steps = 100'000;
+  double first = 0.0;
+  Further<BladderHysteresis, double> others{};
+  for (int i = 0; i < steps; ++i) {
+    const double time_s = way_m / 0.1 / steps;
+    const auto rates = rubber.further_rates(now, others);
+    first += time_s * rubber.memory_rate(now, Inflow<double>{}, first);
+    for (std::size_t k = 0; k < others.size(); ++k) others[k] += time_s * rates[k];
+  }
+  double wanted = 0.0;
+  for (const double width_m : {0.005, 0.01, 0.015}) wanted += (1.0 - std::exp(-way_m / width_m)) / 3.0;
+  EXPECT_NEAR(rubber.pull_N(now, first, others), -9.0 * wanted, 1e-4);
+  EXPECT_EQ(others[2], 0.0);
 }
 
 // After a long rise the force is that of P - P_h, after a long fall that of P + P_h, and a reversal by
