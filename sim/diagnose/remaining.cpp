@@ -39,7 +39,8 @@ Remaining remaining(const Experiment& experiment, const Rig& corrected, const Ru
 
 std::string sentence_of(const Remaining& remaining) {
   if (!remaining.is_more_than_noise()) return "";
-  std::string text = fmt::format(" {:g} noise floors are left", domain::significant(remaining.floors, 2));
+  std::string text =
+      fmt::format(" {:g} times the noise floor remains", domain::significant(remaining.floors, 2));
   if (remaining.pattern.empty()) return text + ", in no part of the data more than in others.";
   const Dense& most = remaining.pattern.front();
   return text + fmt::format(", {:.0f} % of it in {:.0f} % of the readings: {} {}.",

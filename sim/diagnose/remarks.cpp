@@ -62,7 +62,7 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
   const domain::Rows& rows = *data.rows_of_stamps;
   if (rows.rows < rows.stamps)
     words.push_back(fmt::format(
-        "of {} stamps {} rows were judged, {:.3g} ms apart{}; the inputs were followed at {} "
+        "of {} stamps {} rows were compared, {:.3g} ms apart{}; the inputs were followed at {} "
         "stamps, with all at which they jump or bend",
         rows.stamps, rows.rows, 1e3 * rows.row_s,
         rows.readings < 2.0 ? "" : fmt::format(", each of {:.0f} readings on average", rows.readings),
@@ -74,13 +74,12 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         noise_of_given_pressure(data, floor)));
   if (rows.slack > 0)
     words.push_back(
-        fmt::format("{} readings of force are 0, a cord that hangs through: how far the muscle is from "
-                    "pulling they do not say, and nothing goes by them",
+        fmt::format("{} readings of force are 0, a slack cord: they do not show how far the muscle is from "
+                    "pulling, and are not used",
                     rows.slack));
   if (rows.at_the_end > 0)
-    words.push_back(
-        fmt::format("{} readings of force are at the end of the load cell's range; nothing goes by them",
-                    rows.at_the_end));
+    words.push_back(fmt::format(
+        "{} readings of force are at the end of the load cell's range and are not used", rows.at_the_end));
   if (data.force_is_judged())
     words.push_back(
         "the muscle's length is the input: what acts on the load, on its guide or on the encoder is out of "

@@ -115,7 +115,7 @@ std::string stand_ins_in_words(const Diagnosis& d) {
   std::vector<std::string> names;
   for (const NamedEffect& effect : d.stand_ins) names.push_back(full_name(effect));
   if (names.empty()) return {};
-  return fmt::format(" The corrected rig has {} besides: no finding, beside what is unknown.",
+  return fmt::format(" The corrected rig also has {}: no finding, with something unknown at work.",
                      fmt::join(names, " and "));
 }
 
@@ -129,8 +129,9 @@ std::string doubts_in_words(const NamedEffect& effect) {
   }
   std::string said;
   if (effect.side == Side::both && sides > 0)
-    said = " - whether of both muscles alike or of one these data cannot tell";
-  if (!others.empty()) said += fmt::format(" - these data cannot tell it from {}", fmt::join(others, ", "));
+    said = " - of both muscles alike or of one: these data do not decide";
+  if (!others.empty())
+    said += fmt::format(" - not distinguishable with these data from {}", fmt::join(others, ", "));
   return said;
 }
 
@@ -161,8 +162,8 @@ std::string effects_in_words(const Diagnosis& d) {
   }
   const std::string more = stand_ins_in_words(d);
   return fmt::format("Missing: {}. {}{}{}{}", said, runs,
-                     more.empty() ? "" : "Something else is missing besides." + more + " ",
-                     exceeded_in_words(d), gap_in_words(d));
+                     more.empty() ? "" : "Something else is missing, too." + more + " ", exceeded_in_words(d),
+                     gap_in_words(d));
 }
 
 /// In what the letters of its terms count (plant/effects/residual_force.hpp); empty if there are none.
@@ -211,10 +212,10 @@ std::string cannot_tell_in_words(const Diagnosis& d) {
   if (!d.cannot_tell.empty()) return d.cannot_tell + nearer;
   if (d.ended != Ended::no) return "The search ended before it could decide." + nearer;
   if (d.gap.floors_left() > thresholds.start.explained_floors)
-    return "More is left than noise, and nothing that was tried predicts unseen runs convincingly better." +
+    return "More is left than noise, and nothing that was tried predicts unseen runs clearly better." +
            nearer;
   return "Nothing was found, but these data would not show more than half of the effects of the catalogue at "
-         "their usual size: whether one is missing they cannot tell.";
+         "their usual size, so whether one is missing stays open.";
 }
 
 /// Empty if it was through.
@@ -232,7 +233,7 @@ std::string verdict_in_words(const Diagnosis& d) {
     case Verdict::nothing_missing:
       return fmt::format(
           "{} to within noise: on runs held out {} differs by {}, and neither other values of "
-          "the nominal parameters nor any effect of the catalogue makes that convincingly less.",
+          "the nominal parameters nor any effect of the catalogue makes that clearly less.",
           d.faults.empty() && d.bench.empty() ? "Model and data agree"
                                               : "Apart from that model and data agree",
           what_is_judged(d), amount_in_words(d, d.bench.empty() ? d.gap.nominal_rmse : d.gap.corrected_rmse));

@@ -27,7 +27,7 @@ std::string rig_yaml(const domain::Dataset& data, const diagnose::Diagnosis& dia
 std::string law_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis);
 
 /// How a file that plan_yaml made begins.
-inline constexpr const char* plan_heading = "# The measurement that a diagnosis asks for";
+inline constexpr const char* plan_heading = "# The measurement that a diagnosis proposes";
 
 /// A campaign file on the corrected rig with the current and load
 /// of the next experiment, which there must be.

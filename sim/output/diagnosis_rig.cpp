@@ -66,7 +66,7 @@ std::string origin(const domain::Dataset& data, const diagnose::Diagnosis& diagn
     for (const auto& parameter : effect.parameters) text += number_line(parameter.name, parameter, "");
   };
   for (const auto& effect : diagnosis.effects) add("Added", effect);
-  for (const auto& effect : diagnosis.stand_ins) add("Added, standing in for something else", effect);
+  for (const auto& effect : diagnosis.stand_ins) add("Added in place of something unknown", effect);
   if (!diagnosis.residual_law.empty())
     text += comment("Added: a force outside the catalogue, valid for " + diagnosis.law_valid_for);
   for (const auto& term : diagnosis.residual_law) {

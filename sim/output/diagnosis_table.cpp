@@ -133,9 +133,9 @@ std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
     text += "  residual_law is valid for " + diagnosis.law_valid_for + "\n";
   text += section("recalibrated by more than a deviation of what a data sheet promises", moved(diagnosis));
   if (!unseen.empty()) text += section("rmse of the runs held out", gap(diagnosis, data.rig));
-  text += section("rmse of what was read beside it, each weighed by its own floor", beside(diagnosis));
+  text += section("rmse of the other readings, each weighted by its own noise floor", beside(diagnosis));
   const bool undecided = std::ranges::none_of(diagnosis.explanations, &diagnose::Explanation::chosen);
-  text += section(undecided ? "come nearest to these data" : "explain these data as well", twins(diagnosis));
+  text += section(undecided ? "closest to these data" : "explain these data as well", twins(diagnosis));
   return text + section("to measure next", next(diagnosis));
 }
 

@@ -177,7 +177,7 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
     case diagnose::Verdict::cannot_tell:
       break;
   }
-  return "These data cannot tell";
+  return "These data do not decide";
 }
 
 std::string explained_by(const diagnose::Explanation& explanation) {
@@ -204,16 +204,17 @@ std::string what_next(const diagnose::Diagnosis& diagnosis) {
   const double floors = diagnosis.gap.floors_left();
   if (floors > diagnose::thresholds.start.explained_floors)
     return fmt::format(
-        "{:.1f} noise floors are left on the runs held out, so there is something to explain yet. Measure "
+        "On the runs held out {:.1f} times the noise floor remains, so something is still unexplained. "
+        "Measure "
         "one of the runs again: what two equal runs differ by is noise, "
         "what is left beyond it is not in the rig.",
         floors);
   const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
                                  [](const auto& effect) { return !effect.confusable_with.empty(); });
   if (diagnosis.verdict == missing_effect && twins && diagnosis.gap.judged == diagnose::Judged::angle)
-    return "No measurement of a pair is planned that would tell these names apart.";
+    return "No measurement of a pair is planned that would distinguish these names.";
   if (diagnosis.verdict == missing_effect)
-    return twins ? "No current that was tried would tell these names apart."
+    return twins ? "No current that was tried would distinguish these names."
                  : "No further measurement is needed to choose between names.";
   if (diagnosis.verdict == recalibrate)
     return "Check the numbers that moved most against a ruler or the data sheet.";

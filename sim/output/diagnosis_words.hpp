@@ -62,7 +62,7 @@ using diagnose::full_name;
 std::string explained_by(const diagnose::Explanation& explanation);
 
 /// What to do where no measurement is proposed; empty if there is nothing to say. Nobody is told that no more
-/// is needed while noise floors are left.
+/// is needed while noise floors remain unexplained.
 std::string what_next(const diagnose::Diagnosis& diagnosis);
 
 /// Ids of the runs held out.

@@ -29,12 +29,12 @@ TEST(Remaining, LiesWhereMuchOfItIsInLittleOfTheData) {
 TEST(Remaining, IsSaidWhereItIsMoreThanNoise) {
   EXPECT_EQ(sentence_of(Remaining{.floors = 1.9, .share = 0.5}), "");
   EXPECT_EQ(sentence_of(Remaining{.floors = 5.0, .share = 0.5}),
-            " 5 noise floors are left, in no part of the data more than in others.");
+            " 5 times the noise floor remains, in no part of the data more than in others.");
   EXPECT_EQ(sentence_of(Remaining{.floors = 168.4, .share = 0.5}),
-            " 170 noise floors are left, in no part of the data more than in others.");
+            " 170 times the noise floor remains, in no part of the data more than in others.");
   EXPECT_EQ(sentence_of(Remaining{
                 .floors = 5.0, .share = 0.5, .pattern = {{cell("speed", "above 100 mm/s", 20, 0.62), 0.2}}}),
-            " 5 noise floors are left, 62 % of it in 20 % of the readings: speed above 100 mm/s.");
+            " 5 times the noise floor remains, 62 % of it in 20 % of the readings: speed above 100 mm/s.");
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST(DiagnosisPage, AsksForNothingMoreOnlyWhereNothingIsLeft) {
   found.gap.corrected_rmse = 25.0 * found.gap.noise_floor;
   const std::string html = report_html(measured(), found, {}, {});
   EXPECT_TRUE(lacks(html, enough));
-  EXPECT_TRUE(holds(html, "25.0 noise floors are left"));
+  EXPECT_TRUE(holds(html, "25.0 times the noise floor remains"));
 }
 
 TEST(DiagnosisPictures, FrameOnlyWhatIsSignificantAndStayPaleBelowTheNoiseFloor) {
