@@ -180,7 +180,7 @@ struct RigOf {
   static void parts(Self& self, Visitor& visit) {
     visit("muscle", self.muscle, "braid and tube");
     visit("friction", self.friction, "thread friction");
-    visit("valve", self.valve, "servo valve or regulator, and supply");
+    visit("valve", self.valve, "what fills the muscle and vents it, and supply");
     visit("hose", self.hose, "hose from valve to muscle");
     visit("gas", self.gas, "air and atmosphere");
     visit("joint", self.joint, "wheel, inertia and load guide");
@@ -215,6 +215,7 @@ struct RigOf {
   /// Volumes must not fill in no time.
   template <class Report>
   void side_rules(Report& report) const {
+    if (valve.seals()) return;
     const double supply_Pa = valve.supply_pressure_Pa + gas.atmosphere_Pa;
     const double volume_rate_m3_per_s_Pa =
         gas.gas_constant_J_per_kg_K * gas.temperature_K * gas.reference_density_kg_per_m3;
@@ -242,6 +243,8 @@ struct RigOf {
   template <class Report>
   void pair_rules(Report& report) const {
     const OppositeSide& two = pair()->opposite;
+    if (valve.seals() || two.valve.seals())
+      report("mechanics", "a sealed muscle, valve: {kind: none}, is of rigs with one muscle");
     if (friction.memory != two.friction.memory)
       report("mechanics", "friction.memory must be the same on both sides of a pair");
     if (effects.gas_exponent() != two.effects.gas_exponent())

@@ -148,7 +148,7 @@ class SideOf {
   RigOf<P> rig_;
   BraidOf<P> braid_;
   RestrictionOf<P> valve_, vent_, hose_, unit_flow_;
-  bool effects_, regulates_, swings_, switches_;
+  bool effects_, regulates_, swings_, switches_, sealed_;
   double count_, share_;    // muscles side by side; 1/count
   FrictionOf<P> friction_;  // of all of them, by the contact surface of one
   P leak_kg_per_s_Pa_;      // of valves that are shut
@@ -169,6 +169,7 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       regulates_(rig.valve.is_regulator()),
       swings_(rig.valve.swings()),
       switches_(rig.valve.is_on_off()),
+      sealed_(rig.valve.seals()),
       count_(rig.muscle.count),
       share_(1.0 / count_),
       friction_(side_by_side(rig.friction, count_)),
@@ -265,7 +266,8 @@ void SideOf<P>::switched_flows(const SideState<S>& state, const SideMemory<S>& m
   now.vent_flow = through(vent_, held.vents, valve_Pa, S(exhaust_Pa_));
 }
 
-// Whatever keeps a given pressure brings the gas that this takes.
+// Whatever keeps a given pressure brings the gas that this takes; so is a sealed muscle filled, until it is
+// shut.
 template <class P>
 template <class S, class H>
 void SideOf<P>::given_flows(const Stroke<S>& stroke, const SideState<S>& state, const HeldSideOf<H>& held,
@@ -274,11 +276,12 @@ void SideOf<P>::given_flows(const Stroke<S>& stroke, const SideState<S>& state, 
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
   const P n = effects_ ? rig_.effects.gas_exponent() : P(1.0);
   now.pressure_error_Pa = now.wanted_opening = now.valve_opening = now.vent_flow = S(0.0);
-  if (held.given == GivenPressure::muscle) {
+  if (held.given == GivenPressure::muscle || sealed_) {
     now.hose_flow = (now.volume_m3 * (held.pressure_rate_Pa_per_s / n) +
                      muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s) /
                         gas_energy_J_per_kg_ +
                     now.leak_flow;
+    if (sealed_) now.hose_flow = held.fills * now.hose_flow;
     now.supply_flow = now.hose_flow;
   } else {
     now.hose_flow = hose_.flow_kg_per_s(S(state.valve_pressure_Pa + atmosphere), muscle_Pa);
@@ -299,7 +302,7 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
   if (effects_)
     now.leak_flow = count_ * rig_.effects.outflow_kg_per_s(instant(stroke, state, held, now), memory);
 
-  if (held.given != GivenPressure::none)
+  if (held.given != GivenPressure::none || sealed_)
     given_flows(stroke, state, held, now);
   else if (switches_)
     switched_flows(state, memory, held, now);
@@ -309,6 +312,7 @@ void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, 
   if (effects_ && held.given != GivenPressure::muscle)
     now.heating_Pa_per_s = rig_.effects.heating_Pa_per_s(instant(stroke, state, held, now),
                                                          inflow(stroke, now, now.supply_flow), memory);
+  if (sealed_) now.heating_Pa_per_s = (1.0 - held.fills) * now.heating_Pa_per_s;
 }
 
 template <class P>

@@ -9,7 +9,9 @@ namespace mckibben::plant {
 namespace {
 
 bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
-  switch (channel.signal->needs) {
+  const Needs needs = channel.signal->needs;
+  if (rig.valve.seals() && (needs == Needs::command || needs == Needs::valve)) return false;
+  switch (needs) {
     case Needs::one_muscle:
       return !driven.pair;
     case Needs::pair:

@@ -2,6 +2,7 @@
 // fields are listed: rig.hpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <string_view>
@@ -12,13 +13,14 @@
 namespace mckibben::plant {
 
 /// What keeps the pressure: the thesis's servo valve, whose proportional band makes its dynamics, or a
-/// regulator of which a data sheet tells the lag. Or nothing does: valves that are open or shut.
-enum class ValveKind { servo, regulator, on_off };
+/// regulator of which a data sheet tells the lag. Or nothing does: valves that are open or shut, or none, and
+/// the muscle is sealed.
+enum class ValveKind { servo, regulator, on_off, none };
 constexpr auto names(ValveKind) {
   using enum ValveKind;
   return std::array{std::pair{servo, std::string_view{"servo"}},
                     std::pair{regulator, std::string_view{"regulator"}},
-                    std::pair{on_off, std::string_view{"on_off"}}};
+                    std::pair{on_off, std::string_view{"on_off"}}, std::pair{none, std::string_view{"none"}}};
 }
 /// Every valve is a servo valve unless it says otherwise.
 constexpr bool absent(ValveKind kind) {
@@ -86,10 +88,13 @@ struct ValveOf {
   P venting_critical_ratio = 0.0;
   P opening_delay_s = 0.0, closing_delay_s = 0.0;
   P leak_m3_per_s_Pa = 0.0;
+  P fill_pressure_Pa = 3.0e5;  // of a muscle without a valve
 
   bool is_servo() const { return kind == ValveKind::servo; }
   bool is_on_off() const { return kind == ValveKind::on_off; }
   bool is_regulator() const { return kind == ValveKind::regulator; }
+  /// Whether there is none: the muscle holds the gas that it was filled with.
+  bool seals() const { return kind == ValveKind::none; }
   /// Whether its pressure swings: then it remembers how fast it was changing.
   bool swings() const { return is_regulator() && lag == RegulatorLag::second_order; }
   /// By what time a regulator's pressure stays behind a slow ramp.
@@ -106,7 +111,22 @@ struct ValveOf {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("kind", self.kind,
-          "servo (if left out), a regulator by its data sheet, or valves that are open or shut");
+          "servo (if left out), a regulator by its data sheet, valves that are open or shut, or none: a "
+          "sealed muscle");
+    if (ListsAll<Visitor> || !self.seals()) fields_of_valves(self, visit);
+    if (ListsAll<Visitor> || self.seals()) {
+      visit("fill_pressure", self.fill_pressure_Pa, "Pa", -0.95e5, 2e6,
+            "of none: gauge pressure to which the muscle is filled before a run");
+      if (!ListsAll<Visitor>) visit_critical_ratio(self, visit);
+    }
+  }
+  template <class Self, class Visitor>
+  static void visit_critical_ratio(Self& self, Visitor& visit) {
+    visit("critical_ratio", self.critical_ratio, "1", 0.01, 0.9,
+          "critical pressure ratio of valve, hose and leaks, b_c");
+  }
+  template <class Self, class Visitor>
+  static void fields_of_valves(Self& self, Visitor& visit) {
     visit("zero_command", self.zero_command, "mA", 0.0, 100.0,
           "command at zero pressure: mA, V or bar, as the valve takes it, and then all commands of the rig");
     visit("span_command", self.span_command, "mA", 0.1, 100.0, "command at span pressure, in the same unit");
@@ -120,8 +140,7 @@ struct ValveOf {
           "gauge pressure of what it vents to: a vacuum pump's, below 0");
     visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 1e-12, 1e-5,
           "sonic conductance of each proportional valve, fully open, C_v");
-    visit("critical_ratio", self.critical_ratio, "1", 0.01, 0.9,
-          "critical pressure ratio of valve and hose, b_c");
+    visit_critical_ratio(self, visit);
     if (ListsAll<Visitor> || self.is_servo())
       visit("proportional_band", self.proportional_band_Pa, "Pa", 10.0, 2e6,
             "pressure error that opens fully");
@@ -159,14 +178,17 @@ struct ValveOf {
           "of a regulator: ± (one deviation) of the pressure at one command; in a diagnosis's noise floor, "
           "not simulated");
   }
-  /// What no file says of valves that are open or shut: their line is of what they can reach.
+  /// What no file says of valves that are open or shut: their line is of what they can reach. And of a sealed
+  /// muscle, whose pressures are at least of the size of that to which it is filled.
   void resolve() {
+    if (seals()) span_pressure_Pa = std::max(span_pressure_Pa, fill_pressure_Pa);
     if (!is_on_off()) return;
     zero_pressure_Pa = exhaust_pressure_Pa;
     span_pressure_Pa = supply_pressure_Pa;
   }
   template <class Report>
   void rules(Report& report) const {
+    if (seals()) return;
     if (is_on_off() && leak_m3_per_s_Pa >= conductance_m3_per_s_Pa)
       report("leak", "a shut valve must pass less than an open one, conductance");
     if (is_on_off() && switching == Switching::pwm && pwm_frequency_Hz == 0.0)

@@ -37,6 +37,7 @@ class Judging {
   void operator()() {
     if (raw_.gives_length()) leave_out_slack();
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
+    raw_.filled_Pa = first_pressure_Pa(raw_);
     fast_ = row_s_ / median_gap_s(raw_.time_s) >= enough_readings && !raw_.counted;
     Measurement driving = fast_ ? thinned() : as_recorded();
     judge(driving);
@@ -59,6 +60,7 @@ class Judging {
     Measurement bare;
     bare.recorded = raw_.recorded;
     bare.first = raw_.first;
+    bare.filled_Pa = raw_.filled_Pa;
     bare.counted = raw_.counted;
     bare.point_s = raw_.point_s;
     for (const MeasuredColumn& column : raw_.columns)

@@ -145,11 +145,15 @@ double step_of(const std::vector<double>& values) {
 domain::FirstState first_state(const domain::Measurement& measured) {
   const auto [ratio, speed, acceleration] = parabola(measured.time_s, measured.read("contraction"));
   domain::FirstState first{ratio, speed, acceleration};
+  first.muscle_pressure_Pa = first_pressure_Pa(measured);
+  return first;
+}
+
+std::optional<double> first_pressure_Pa(const domain::Measurement& measured) {
   const auto& gauge = measured.read("muscle_pressure");
   const auto known = std::ranges::count_if(gauge, [](double value) { return !std::isnan(value); });
-  if (static_cast<std::size_t>(known) >= least_readings)
-    first.muscle_pressure_Pa = parabola(measured.time_s, gauge)[0];
-  return first;
+  if (static_cast<std::size_t>(known) < least_readings) return std::nullopt;
+  return parabola(measured.time_s, gauge)[0];
 }
 
 }  // namespace mckibben::data

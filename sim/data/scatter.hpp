@@ -77,5 +77,7 @@ double step_of(const std::vector<double>& values);
 
 /// From the readings of the first moments, by a parabola. A run that begins on its way has enough of them.
 domain::FirstState first_state(const domain::Measurement& measured);
+/// Of the muscle's pressure alone; none if it was not read.
+std::optional<double> first_pressure_Pa(const domain::Measurement& measured);
 
 }  // namespace mckibben::data

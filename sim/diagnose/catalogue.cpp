@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <plant/geometry.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
@@ -50,7 +51,7 @@ std::vector<plant::Hook> hidden(const domain::Dataset& data) {
   using enum plant::Hook;
   std::vector<plant::Hook> list;
   const bool muscle = data.pressure_is_given();
-  if (muscle || data.valve_pressure_is_given())
+  if (muscle || data.valve_pressure_is_given() || data.rig.valve.seals())
     list = {valve_error_shift, valve_opening, supply_drop, vent_factor, command_delay, reference};
   if (muscle) list.insert(list.end(), {outflow, gas_exponent, muscle_heating});
   if (data.judged() == domain::Judged::pressure)
@@ -88,6 +89,10 @@ bool out_of_sight(const domain::Dataset& data, const Parameter& p) {
   const auto begins = [&](std::string_view part) { return path.starts_with(part); };
   if (data.pressure_is_given())
     return begins("valve.") || begins("hose.") || begins("gas.") || path == "muscle.dead_volume";
+  if (data.rig.valve.seals() && begins("hose.")) return true;
+  if (data.rig.valve.seals() && path == "valve.fill_pressure")
+    return std::ranges::all_of(data.runs,
+                               [](const auto& run) { return run.measured && run.measured->filled_Pa; });
   return data.valve_pressure_is_given() && begins("valve.");
 }
 
@@ -137,6 +142,19 @@ std::vector<Candidate> in_sight(const Sight& sight) {
   return list;
 }
 
+/// A leak that matters where nothing fills the muscle again [m3/(s.Pa)]: it takes a hundredth of the gas in a
+/// run.
+double leak_of_a_sealed_muscle(const domain::Dataset& data) {
+  constexpr double share = 0.01;
+  double longest_s = data.row_s();
+  for (const domain::Run& run : data.runs)
+    if (run.measured && !run.measured->time_s.empty())
+      longest_s = std::max(longest_s, run.measured->time_s.back() - run.measured->time_s.front());
+  const plant::Gas& gas = data.rig.gas;
+  return share * plant::Braid(data.rig.muscle).volume_m3(0.0) /
+         (gas.gas_constant_J_per_kg_K * gas.temperature_K * gas.reference_density_kg_per_m3 * longest_s);
+}
+
 }  // namespace
 
 std::vector<Candidate> catalogue() {
@@ -159,6 +177,9 @@ std::vector<Candidate> catalogue(const domain::Dataset& data) {
                                           .gauge = given || read(&domain::Run::muscle_pressure_Pa),
                                           .opposite_gauge = given || read(&domain::Run::opposite_pressure_Pa),
                                           .pair = pair});
+  if (data.rig.valve.seals())
+    for (Candidate& one : list)
+      if (one.effect == plant::MuscleLeak::name) one.typical = leak_of_a_sealed_muscle(data);
   for (const auto& law : data.rig.effects.laws.list)
     if (!is_hidden(*law.text, hooks)) list.push_back(candidate_of(*law.text));
   return list;

@@ -90,8 +90,10 @@ double scatter(const domain::Dataset& data, const std::vector<std::vector<bool>>
   return data::upper_median(std::move(fourth)) / assumed.normal_median / std::sqrt(70.0);
 }
 
-/// Whether the same drove both, over as many rows.
-bool driven_alike(const domain::Run& one, const domain::Run& other) {
+/// Whether the same drove both, over as many rows; of sealed muscles, from the same pressure.
+bool driven_alike(const domain::Run& one, const domain::Run& other, bool sealed) {
+  if (sealed && one.measured && other.measured && one.measured->filled_Pa != other.measured->filled_Pa)
+    return false;
   if (one.load_kg != other.load_kg || one.current_mA != other.current_mA || one.shaken) return false;
   if (one.judged().size() != other.judged().size()) return false;
   if (!one.measured || !other.measured) return one.measured.has_value() == other.measured.has_value();
@@ -112,7 +114,7 @@ double repeatability(const domain::Dataset& data, const std::vector<std::vector<
   for (auto a = trusted.begin(); a != trusted.end(); ++a) {
     for (auto b = std::next(a); b != trusted.end(); ++b) {
       const domain::Run &one = data.runs[*a], &other = data.runs[*b];
-      if (!driven_alike(one, other)) continue;
+      if (!driven_alike(one, other, data.rig.valve.seals())) continue;
       for (std::size_t k = 0; k < one.judged().size(); ++k) {
         if (masked[*a][k] || masked[*b][k]) continue;
         const double difference = one.judged()[k] - other.judged()[k];

@@ -31,7 +31,10 @@ struct Said {
   bool ignores(std::string_view key) const {
     return !map[own(key)].absent() && map[own(key)].as == Role::ignored;
   }
-  GivenPressure pressure() const { return map.given_pressure(pair() ? muscle : 0); }
+  bool sealed() const { return rig.valve.seals(); }
+  GivenPressure pressure() const {
+    return sealed() ? GivenPressure::none : map.given_pressure(pair() ? muscle : 0);
+  }
   bool reads_a_pressure() const {
     return (has("muscle_pressure") && !gives("muscle_pressure")) ||
            (has("valve_pressure") && !gives("valve_pressure"));
@@ -53,8 +56,16 @@ constexpr auto rules = std::to_array<Rule>({
      "the muscle's pressure is the input, so that there is no valve to be commanded; say as: ignored"},
     {"command", [](const Said& s) { return s.pressure() == GivenPressure::valve && s.has("command"); },
      "the valve's pressure is the input, so that nothing is commanded; say as: ignored"},
-    {"command", [](const Said& s) { return s.pressure() == GivenPressure::none && s.ignores("command"); },
+    {"command",
+     [](const Said& s) { return s.pressure() == GivenPressure::none && s.ignores("command") && !s.sealed(); },
      "nothing else drives the muscle"},
+    {"command", [](const Said& s) { return s.sealed() && s.has("command"); },
+     "the rig's muscle is sealed (valve: {kind: none}), so that nothing is commanded; say as: ignored"},
+    {"valve_pressure", [](const Said& s) { return s.sealed() && s.has("valve_pressure"); },
+     "the rig's muscle is sealed (valve: {kind: none}), so that no valve has a pressure; say as: ignored"},
+    {"muscle_pressure", [](const Said& s) { return s.sealed() && s.gives("muscle_pressure"); },
+     "the rig's muscle is sealed (valve: {kind: none}): its pressure is what the gas in it makes of it, and "
+     "cannot be the input; leave out as: input"},
     {"valve_pressure",
      [](const Said& s) { return s.pressure() == GivenPressure::muscle && s.has("valve_pressure"); },
      "the muscle's pressure is the input, so that there is no valve; say as: ignored"},

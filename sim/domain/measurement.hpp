@@ -70,7 +70,9 @@ struct Measurement {
   bool angle_in_degrees = false;        ///< as the file has it, and as its gap is told
   bool counted = false;                 ///< contraction or angle are counts of the encoder
   Recorded recorded{};
-  std::vector<std::size_t> rows{};    ///< stamps that are judged, ascending; none: all
+  std::vector<std::size_t> rows{};  ///< stamps that are judged, ascending; none: all
+  std::optional<double>
+      filled_Pa{};  ///< what a sealed muscle held at first, where it was read; none: likewise
   std::optional<FirstState> first{};  ///< of a run that began on its way; none: its readings have it
 
   // By the key in a data set's `columns`, without the muscle's number: of muscle 1 or of one muscle, or of 2.

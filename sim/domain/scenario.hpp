@@ -166,7 +166,11 @@ struct Scenario {
     visit.required("target", self.target, "the movement that is wanted");
     fields_of_time(self, visit);
     visit_controllers<controllers::SingleSettings>(self, [&](auto& controllers) {
-      visit.required("controllers", controllers, "what is to follow the target");
+      if (self.rig.valve.seals())
+        visit("controllers", controllers, "none: the muscle is sealed");
+      else
+        visit.required("controllers", controllers,
+                       "what is to follow the target; none if a muscle is sealed");
     });
     visit("joint_force", self.outer_forces,
           "forces on the cord in addition to the load, one after the other; none before the first");

@@ -267,8 +267,10 @@ Wander Simulator::wander(const Setting& setting) const {
       knots.push_back(lasts_s * static_cast<double>(k) / static_cast<double>(pieces));
     std::vector<Lane>& list = lanes.emplace_back();
     std::vector<double> all;
+    const std::size_t felt =
+        data.rig.valve.seals() ? 1 : knots.size();  // of a sealed muscle, how it is filled
     for (std::size_t muscle = 0; muscle < muscles; ++muscle)
-      for (std::size_t k = 0; k < knots.size(); ++k) {
+      for (std::size_t k = 0; k < felt; ++k) {
         list.push_back({k, muscle});
         all.push_back(knots[k] +
                       1e9 * static_cast<double>(muscle));  // the muscles' wanders know nothing of each other

@@ -76,6 +76,11 @@ bool fits(const YamlFile& file, const Node& node, bool pair, Problems& problems)
 
 void check_currents(const YamlFile& file, Campaign& campaign, Problems& problems) {
   const Node& nodes = *file.root.find("currents");
+  if (campaign.rig.valve.seals())
+    problems.error(
+        file.source, nodes.place,
+        "currents: the rig's muscle is sealed (valve: {kind: none}), so that nothing is commanded; a "
+        "scenario runs it");
   if (campaign.currents.empty())
     problems.error(file.source, nodes.place, "currents: at least one current is needed");
   const plant::Pair* pair = campaign.rig.pair();

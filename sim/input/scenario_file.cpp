@@ -47,10 +47,12 @@ class ScenarioChecker {
       check_loads(file_, scenario_.loads_kg, scenario_.rig, problems_);
       check_target();
       check_outer_forces();
-      if (scenario_.controllers.empty())
+      if (scenario_.rig.valve.seals())
+        let_alone();
+      else if (scenario_.controllers.empty())
         problems_.error(source_, list("controllers").place, "controllers: at least one controller is needed");
     }
-    check_controllers();
+    if (!scenario_.rig.valve.seals()) check_controllers();
     check_criteria();
     check_robustness();
     if (pair() != nullptr && problems_.errors() == 0) check_files();
@@ -171,6 +173,16 @@ class ScenarioChecker {
               !names.insert(name).second)
             problems_.error(source_, list("targets").children[t].place,
                             fmt::format("two runs would be called {}; choose other names", name));
+  }
+
+  /// A sealed muscle: its run goes by that name.
+  void let_alone() {
+    if (!scenario_.controllers.empty())
+      problems_.error(source_, list("controllers").place,
+                      "controllers: the rig's muscle is sealed (valve: {kind: none}), so that nothing is "
+                      "commanded; leave them out");
+    scenario_.controllers = {controllers::StepCurrent{
+        .name = "sealed", .start_mA = scenario_.rig.valve.zero_command, .moves = {}}};
   }
 
   void check_controllers() {

@@ -31,15 +31,16 @@ std::string unit_of_command_problem(const ColumnPlace& command, const plant::Val
 }
 
 /// Whether the column must be there: what drives the rig must.
-bool drives(const Quantity& quantity, const ColumnMap& map) {
+bool drives(const Quantity& quantity, const ColumnMap& map, const plant::Rig& rig) {
   if (quantity.key == "time" || map.gives(quantity)) return true;
-  return quantity.is_command() && map.given_pressure(quantity.channel.muscle) == plant::GivenPressure::none;
+  return quantity.is_command() && !rig.valve.seals() &&
+         map.given_pressure(quantity.channel.muscle) == plant::GivenPressure::none;
 }
 
 }  // namespace
 
 bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
-  if (!rig.lifts_a_load() || !map.settled.absent()) return true;
+  if (!rig.lifts_a_load() || rig.valve.seals() || !map.settled.absent()) return true;
   return std::ranges::any_of(domain::quantities(), [&](const Quantity& quantity) {
     const ColumnPlace& place = map[quantity];
     constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
@@ -56,7 +57,7 @@ std::vector<Wish> stamped_quantities(const ColumnMap& map, const plant::Rig& rig
     const ColumnPlace& place = map[quantity];
     if (!quantity.belongs(pair) || (!place.absent() && place.as == Role::ignored)) continue;
     if (place.absent() && quantity.channel.signal->must_be_named) continue;
-    const bool needed = drives(quantity, map), of_one = quantity.is_command() && !pair;
+    const bool needed = drives(quantity, map, rig), of_one = quantity.is_command() && !pair;
     const bool under_the_other_name =
         of_one && (quantity.is_old_current ? !map[domain::command_key].absent() : place.absent());
     if (!under_the_other_name && (needed || !quantity.is_command())) wishes.push_back({&quantity, needed});

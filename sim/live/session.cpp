@@ -142,9 +142,10 @@ void Session::start_over() {
   hold(wanted_at(0.0));
   guarded([&] {
     const auto ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
-    ride_.start(drive_, static_cast<double>(-ticks) * rig_.tick_s);
+    const ride::Drive settling = ride::settling(drive_, rig_);
+    ride_.start(settling, static_cast<double>(-ticks) * rig_.tick_s);
     for (auto k = -ticks + 1; k <= 0; ++k) {
-      ride_.step(drive_, static_cast<double>(k) * rig_.tick_s);
+      ride_.step(settling, static_cast<double>(k) * rig_.tick_s);
       sample_.counts = reader_.count(ride_.reading().wheel_m);
     }
   });

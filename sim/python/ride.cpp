@@ -67,9 +67,11 @@ void Ride::start(const Given& given, double at_s, bool settle) {
   ticks_ = -ticks;
   counter_ = plant::PositionReader(*rig_);
   const py::gil_scoped_release released;
+  if (ticks > 0) drive_ = ride::settling(drive, *rig_);
   ride_.start(drive_, time_after(0));
   look();
   while (ticks_ < 0) advance();
+  drive_ = drive;
 }
 
 Shown Ride::step(const Given& given, std::optional<double> dt_s) {

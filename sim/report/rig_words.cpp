@@ -37,6 +37,7 @@ std::string spring(const plant::Joint& joint) {
 }
 
 std::string valve(const plant::Valve& valve) {
+  if (valve.seals()) return fmt::format("none: sealed, filled to {}", readable(valve.fill_pressure_Pa, "Pa"));
   std::string says =
       fmt::format("{:g} to {:g} {} for {} to {}; supply {}", valve.zero_command, valve.span_command,
                   name_of(valve.command_unit), readable(valve.zero_pressure_Pa, "Pa"),

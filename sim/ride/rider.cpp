@@ -50,7 +50,11 @@ void hold_side(const plant::Side& side, const Command& before, const Command& no
     past.give({now_s, now.current_mA, held.current_speed_mA_per_s});
   feel(side, now, now_s, past, valves, plays, held);
   held.given = now.given();
-  if (held.given == plant::GivenPressure::muscle)
+  if (side.rig().valve.seals()) {
+    held.fills = held.given == plant::GivenPressure::muscle ? 1.0 : 0.0;
+    held.given = plant::GivenPressure::none;
+  }
+  if (now.given() == plant::GivenPressure::muscle)
     held.pressure_rate_Pa_per_s = (*now.muscle_pressure_Pa - state.muscle_pressure_Pa) / length_s;
   else if (held.given == plant::GivenPressure::valve)
     held.pressure_rate_Pa_per_s = (*now.valve_pressure_Pa - state.valve_pressure_Pa) / length_s;
@@ -71,6 +75,11 @@ double given_ratio(const plant::Rig& rig, double said) {
 
 }  // namespace
 
+Drive settling(Drive drive, const plant::Rig& rig) {
+  if (rig.valve.seals() && !drive.muscle_pressure_Pa) drive.muscle_pressure_Pa = rig.valve.fill_pressure_Pa;
+  return drive;
+}
+
 void Rider::start(const Drive& given, double at_s) {
   const Drive drive = corrected(plant_, given);
   now = {.time_s = at_s, .until_s = at_s, .drive = drive};
@@ -79,8 +88,11 @@ void Rider::start(const Drive& given, double at_s) {
   plant_.rig().effects.wheel_m(0.0, now.plays);
   const auto full = [](const plant::Side& side, const Command& command, plant::Effects::Plays& plays) {
     // Valves that are open or shut keep no pressure: such a rig begins vented.
-    const double wanted = reference_Pa(side, command, plays),
-                 reference = side.rig().valve.is_on_off() ? 0.0 : wanted;
+    const plant::Valve& valve = side.rig().valve;
+    const double wanted = reference_Pa(side, command, plays), reference = valve.is_on_off() ? 0.0
+                                                                          : valve.seals()
+                                                                              ? valve.fill_pressure_Pa
+                                                                              : wanted;
     return command.muscle_pressure_Pa.value_or(command.valve_pressure_Pa.value_or(reference));
   };
   plant::Held& held = now.held;

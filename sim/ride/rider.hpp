@@ -31,11 +31,11 @@ struct Loaded {
 /// What acts on a muscle from outside, from one instant to the next: a command, or in its place the pressure
 /// that the valve's volume or the muscle has at the end, and runs straight to.
 struct Command {
-  double current_mA = 0.0;         ///< as a DAC gives it
-  double stray_current_mA = 0.0;   ///< reaches the valve besides, and is in no table
-  double stray_pressure_Pa = 0.0;  ///< on the reference that the valve follows, in the end
-  std::optional<double> muscle_pressure_Pa{};
-  std::optional<double> valve_pressure_Pa{};  ///< where that of the muscle is not given
+  double current_mA = 0.0;                     ///< as a DAC gives it
+  double stray_current_mA = 0.0;               ///< reaches the valve besides, and is in no table
+  double stray_pressure_Pa = 0.0;              ///< on the reference that the valve follows, in the end
+  std::optional<double> muscle_pressure_Pa{};  ///< of a sealed muscle: what fills it; without it is shut
+  std::optional<double> valve_pressure_Pa{};   ///< where that of the muscle is not given
 
   plant::GivenPressure given() const {
     if (muscle_pressure_Pa) return plant::GivenPressure::muscle;
@@ -62,6 +62,9 @@ struct Drive : Command {
     visit(self.contraction_ratio, self.opposite, self.joint_force_N);
   }
 };
+
+/// What acts while a rig settles: as long as that, a sealed muscle is being filled.
+Drive settling(Drive drive, const plant::Rig& rig);
 
 /// What instruments see at an instant, before they count or round.
 struct Reading {

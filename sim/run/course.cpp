@@ -157,6 +157,8 @@ double Course::until_s(std::size_t k, double alone_s) const {
 
 Course course_of(const Measurement& measured, const plant::Rig& rig) {
   Course course = Drives(measured, rig)();
+  if (rig.valve.seals())
+    course.filled_Pa = measured.filled_Pa ? measured.filled_Pa : data::first_pressure_Pa(measured);
   if (measured.recorded.start == domain::Start::moving) {
     const domain::FirstState first = measured.first ? *measured.first : data::first_state(measured);
     const double length_m = rig.muscle.rest_length_m;

@@ -18,6 +18,7 @@ struct Course {
                                          ///< lengths are what they are there, and run straight to the next
   std::vector<std::size_t> rows;         ///< stamps that have a row, ascending
   bool outer_force = false;              ///< one is given, on the joint
+  std::optional<double> filled_Pa;       ///< as a gauge shows it: to where a sealed muscle is filled before
   std::optional<ride::Underway> begins;  ///< on its way, at the first stamp; none: settled
 
   /// What acts from stamp `k` until the next. From the last one pressures and lengths go on as they came.

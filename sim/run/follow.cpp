@@ -23,12 +23,18 @@ Follower::Follower(std::vector<ride::Rider> riders, const plant::Rig& rig, Cours
       riders_(std::move(riders)) {
   if (!course_.begins) settling_ = std::lround(rig_.settling_time_s / rig_.tick_s);
   for (std::size_t i = 0; i < riders_.size(); ++i) {
-    riders_[i].start(disturbed(course_.drives.front(), i, never_s, never_s), before_s(settling_));
+    riders_[i].start(disturbed(settling(i), i, never_s, never_s), before_s(settling_));
     if (!course_.begins) continue;
     ride::Underway begins = *course_.begins;
     if (disturbance_.begin) disturbance_.begin(i, begins);
     ride::set_off(riders_[i], begins);
   }
+}
+
+ride::Drive Follower::settling(std::size_t rider) const {
+  ride::Drive drive = course_.drives.front();
+  if (course_.filled_Pa) drive.muscle_pressure_Pa = course_.filled_Pa;
+  return ride::settling(drive, riders_[rider].plant().rig());
 }
 
 ride::Drive Follower::disturbed(ride::Drive drive, std::size_t rider, double from_s, double to_s) const {
@@ -37,19 +43,19 @@ ride::Drive Follower::disturbed(ride::Drive drive, std::size_t rider, double fro
 }
 
 bool Follower::go_on() {
-  const auto hold = [this](const ride::Drive& drive, double from_s, double to_s, double until_s) {
-    for (std::size_t i = 0; i < riders_.size(); ++i)
-      riders_[i].hold(disturbed(drive, i, from_s, to_s), until_s);
-  };
   if (has_settled_ && k_ == 0) settled_a_tick();
   if (settling_ > 0) {
     has_settled_ = true;
-    hold(course_.drives.front(), never_s, never_s, before_s(--settling_));
+    const double until_s = before_s(--settling_);
+    for (std::size_t i = 0; i < riders_.size(); ++i)
+      riders_[i].hold(disturbed(settling(i), i, never_s, never_s), until_s);
     return true;
   }
   if (k_ == 0) begin();
   const double until_s = course_.until_s(k_, rig_.tick_s);
-  hold(course_.toward(k_), course_.time_s[k_], until_s, until_s);  // forces are those of the way ahead
+  const ride::Drive drive = course_.toward(k_);
+  for (std::size_t i = 0; i < riders_.size(); ++i)  // forces are those of the way ahead
+    riders_[i].hold(disturbed(drive, i, course_.time_s[k_], until_s), until_s);
   if (row_ < course_.rows.size() && course_.rows[row_] == k_) {
     look(k_);
     ++row_;

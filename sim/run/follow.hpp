@@ -56,6 +56,8 @@ class Follower : public ride::BatchItem {
     return course_.time_s.front() - static_cast<double>(ticks) * rig_.tick_s;
   }
 
+  /// What acts before the first stamp.
+  ride::Drive settling(std::size_t rider) const;
   ride::Drive disturbed(ride::Drive drive, std::size_t rider, double from_s, double to_s) const;
 
   plant::Rig rig_;

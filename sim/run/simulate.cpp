@@ -85,7 +85,7 @@ class Run : public ride::BatchItem {
         disturbance_(plan) {
     recording_.samples.reserve(plan_.ticks);
     ask_timed([&] { return controller_.rest(); });
-    rider_.start(drive_, time_s(begin_));
+    rider_.start(ride::settling(drive_, plan_.rig), time_s(begin_));
   }
 
   std::span<ride::Rider> riders() override { return {&rider_, 1}; }
@@ -190,7 +190,7 @@ class Run : public ride::BatchItem {
       if (plan_.outer_forces[next_force_].at_s > time_s(k_) + ride::same_instant_s) break;
       drive_.joint_force_N = plan_.outer_forces[next_force_].force_N;
     }
-    rider_.hold(drive_, time_s(k_ + 1));
+    rider_.hold(k_ < 0 ? ride::settling(drive_, plan_.rig) : drive_, time_s(k_ + 1));
   }
 
   double time_s(std::int64_t k) const { return static_cast<double>(k) * plan_.rig.tick_s; }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <plant/valve.hpp>
 #include <sim/run/tune_pid.hpp>
 
 namespace mckibben::run {

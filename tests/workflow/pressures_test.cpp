@@ -107,6 +107,29 @@ TEST(PressuresAlone, SayAGaugesZeroInTheUnitOfItsColumn) {
   EXPECT_NEAR(std::stod(found.bench[0].write.substr(line.size())), 5.0, 0.2);
 }
 
+/// Filled to 2, 2.5, 3 bar and so on, run by run, and shut.
+TEST(PressuresAlone, OfASealedMuscleNameItsLeak) {
+  plant::Rig described;
+  described.mechanics = plant::HeldLength{};
+  described.valve.kind = plant::ValveKind::none;
+  plant::Rig truth = described;
+  truth.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
+  double filled_Pa = 1.5e5;
+  const domain::Dataset data =
+      pressures_of(truth, described, {4.0, 2.0, 1.0, 0.5}, 6.0, [&](auto& measured, double) {
+        if (!measured.filled_Pa) measured.filled_Pa = filled_Pa += 0.5e5;
+        measured.give("contraction").push_back(0.0);
+      });
+  ASSERT_EQ(data.judged(), domain::Judged::pressure);
+  const auto hidden = effects_out_of_sight(data);
+  EXPECT_EQ(std::ranges::count(hidden, plant::ValveLag::name), 1);
+  EXPECT_EQ(std::ranges::count(hidden, plant::MuscleLeak::name), 0);
+  const Diagnosis found = diagnosis_of(data, 2);
+  ASSERT_TRUE(names_only(found, "muscle_leak"));
+  EXPECT_TRUE(surrounds(found.effects[0].parameters.at(0), 1e-10));
+  EXPECT_LT(found.gap.corrected_rmse, 1.2 * found.gap.noise_floor);
+}
+
 TEST(PressuresAlone, BehindAGivenValvePressureTellOnlyOfHoseAndMuscle) {
   plant::Rig truth;
   truth.effects.get<plant::PolytropicGas>().exponent = 1.3;

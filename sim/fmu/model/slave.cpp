@@ -101,7 +101,7 @@ void Slave::make_ride() {
 
 void Slave::settle() {
   if (const std::string broken = domain::broken_rule(rig_); !broken.empty()) throw std::runtime_error(broken);
-  const ride::Drive at_first = drive();
+  const ride::Drive at_first = ride::settling(drive(), rig_);
   hanging_kg_ = load_kg_;
   make_ride();
   const auto ticks = std::lround(rig_.settling_time_s / rig_.tick_s);
