@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <string_view>
@@ -252,6 +253,13 @@ struct RigOf {
     if (valve.supply_pressure_Pa != two.valve.supply_pressure_Pa)
       report("mechanics",
              "valve.supply_pressure must be the same on both sides of a pair: there is one supply");
+    const auto tank = [](const Effects& of) {
+      const auto& one = of.get<SupplyDroop>();
+      return std::array{one.volume_m3, one.line_resistance_s_Pa_per_kg, one.exponent};
+    };
+    if (tank(effects) != tank(two.effects))
+      report("mechanics",
+             "effects.supply_droop must be the same on both sides of a pair: both draw from one tank");
     if (!effects.template get<GuideFriction>().absent() || !two.effects.get<GuideFriction>().absent())
       report("mechanics", "effects.guide_friction is of a hanging load's guide, which a pair has not");
     if (pair()->contraction_ratio >= Braid(muscle).largest_contraction_ratio())
