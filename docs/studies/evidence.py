@@ -124,8 +124,8 @@ def heading(evidence, name, title):
     loads, speeds = evidence.loads_kg, evidence.speeds
     return (f"# {title}\n\nMade by `./mckibben python docs/studies/{name}.py` from the campaign `thesis_campaign`, "
             f"{len(evidence.runs)} runs: loads from {loads[0]:g} to {loads[-1]:g} kg, current speeds nu from "
-            f"{speeds[0]:.1f} to {speeds[-1]:.1f} mA/s. Every number on this page is computed; a test makes the page "
-            f"again and compares.\n\n![{title}]({name}.svg)\n\n")
+            f"{speeds[0]:.1f} to {speeds[-1]:.1f} mA/s. A test makes this page again."
+            f"\n\n![{title}]({name}.svg)\n\n")
 
 
 def write(name, page, title, x_label, y_label, curves):
