@@ -1,5 +1,5 @@
-// What a rig's muscle pulls on: a hanging load, a test bench that gives it its length, or a link that it
-// turns against a second muscle (T 2.7). Values of the pair: the shipped rig `thesis_pair`.
+// What a rig's muscle pulls on: a hanging load, a lever (lever.hpp), a test bench that gives it its length,
+// or a link that it turns against a second muscle (T 2.7). Values of the pair: the shipped rig `thesis_pair`.
 //
 // Everything else of a Rig (rig.hpp) is one side and the wheel's joint; of a pair, the second side departs
 // from it.
@@ -10,6 +10,7 @@
 
 #include <plant/constants.hpp>
 #include <plant/effects.hpp>
+#include <plant/lever.hpp>
 #include <plant/muscle.hpp>
 #include <plant/valve.hpp>
 
@@ -106,6 +107,6 @@ inline Pair with_load_in_hand(Pair pair, double load_kg, double hand_m) {
   return pair;
 }
 
-using Mechanics = std::variant<HangingLoad, HeldLength, Pair>;
+using Mechanics = std::variant<HangingLoad, HeldLength, Pair, Lever>;
 
 }  // namespace mckibben::plant

@@ -10,7 +10,9 @@ State<double> PlantOf<P>::at_rest(const HeldOf<P>& held) const {
   const auto full = [](const HeldSide& side) {
     return SideState<double>{side.reference_pressure_Pa, side.reference_pressure_Pa, 0.0};
   };
-  return {{opposite_ ? link_.contraction_ratio : 0.0, 0.0}, full(held), full(held.opposite)};
+  const double length_m = side_.braid().rest_length_m();
+  const double stands_m = std::clamp(0.0, lowest_m_, std::max(lowest_m_, highest_m_));
+  return {{stops_ ? mounted_ + stands_m / length_m : mounted_, 0.0}, full(held), full(held.opposite)};
 }
 
 template <class P>
@@ -74,9 +76,15 @@ template <class P>
 double PlantOf<P>::mechanical_energy_J(const State<double>& state) const {
   const double length = side_.braid().rest_length_m();
   const double speed = length * state.joint.contraction_speed_per_s;
-  const double moving_J =
-      0.5 * mass_kg_ * speed * speed +
-      rig().joint.spring_energy_J((state.joint.contraction_ratio - spring_from_) * length);
+  const double rise = rise_m(state.joint.contraction_ratio);
+  if (lever_) {
+    const Stand<double> stand = turning_->at(rise);
+    const double turning = speed / stand.arm_m;
+    return 0.5 * (mass_kg_ * speed * speed + inertia_kg_m2_ * turning * turning) +
+           lever_->spring().energy_J(stand.angle_rad) +
+           weight_moment_N_m_ * (1.0 - std::cos(stand.angle_rad - lever_->hangs_at_rad));
+  }
+  const double moving_J = 0.5 * mass_kg_ * speed * speed + rig().joint.spring_energy_J(rise);
   if (!opposite_) return moving_J + weight_N() * length * state.joint.contraction_ratio;
   const double lean_rad = angle_rad(state.joint.contraction_ratio) - link_.hangs_at_rad;
   return moving_J + link_.mass_kg * gravity_m_per_s2 * link_.length_m * (1.0 - std::cos(lean_rad));
@@ -119,7 +127,9 @@ Imbalance PlantOf<P>::imbalance(const State<double>& from, const State<double>& 
                         books.thread_friction_work_J - books.guide_work_J + books.bench_work_J -
                         (mechanical_energy_J(to) - mechanical_energy_J(from));
   // A load that hardly moved did no work to speak of: count at least that of a hundredth of the length.
-  const double hanging_N = opposite_ ? link_.mass_kg * gravity_m_per_s2 : weight_N();
+  const double hanging_N = opposite_ ? link_.mass_kg * gravity_m_per_s2
+                           : lever_  ? weight_moment_N_m_ / turning_->at(0.0).arm_m
+                                     : weight_N();
   const double least_J = 0.01 * hanging_N * side_.braid().rest_length_m();
   const double work_J = std::abs(books.braid_work_J) + std::abs(books.stop_work_J) +
                         std::abs(books.effects_work_J) + std::abs(books.thread_friction_work_J) +

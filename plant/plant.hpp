@@ -3,8 +3,9 @@
 //
 //   State, Memory, Held --(moment)--> Moment: all that is known at this instant --(rates)--> dx/dt
 //
-// The joint moves as the first muscle contracts; a second one, `opposite`, is stretched by as much:
-//   e2 = e20 - (e - e10) l0/l02    theta = (e - e10) l0/R
+// The joint moves as the first muscle contracts, x = (e - e10) l0; a second one, `opposite`, is stretched by
+// as much:
+//   e2 = e20 - x/l02    theta = x/R, or as a lever turns (lever.hpp)
 // S is double, a dual number where the Jacobian is wanted, or lanes that hold several rigs; P is what their
 // parameters are made of: double, but for lanes; H what is held: P, or S where slopes by it are wanted.
 #pragma once
@@ -23,6 +24,7 @@ template <class S>
 struct Moment : SideMoment<S> {
   S guide_force_N;          // c v
   S spring_force_N;         // of the return spring, positive where it shortens the (first) muscle
+  S joint_stop_force_N;     // of the ends of the joint's way, the same
   S bench_force_N;          // of what gives the muscle its length, or pulls on the joint from outside
   S acceleration_m_per_s2;  // dv/dt
   SideMoment<S> opposite;
@@ -33,6 +35,8 @@ class PlantOf {
  public:
   /// The rig with a load [kg] hung on it. The rig's values are taken as checked.
   PlantOf(const RigOf<P>& rig, const P& load_kg);
+  /// The same with the load on a lever that the muscle turns.
+  PlantOf(const RigOf<P>& rig, const P& load_kg, const LeverOf<P>& lever);
   /// Two rigs' sides on the wheel of the first. Throws std::invalid_argument unless both have the same kind
   /// of friction memory and breathe the same gas.
   PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<P>& link);
@@ -42,10 +46,14 @@ class PlantOf {
   const SideOf<P>& side() const { return side_; }
   const std::optional<SideOf<P>>& opposite() const { return opposite_; }
   const LinkOf<P>& link() const { return link_; }
+  const std::optional<LeverOf<P>>& lever() const { return lever_; }
   /// What returns the joint [N], at a contraction ratio of the (first) muscle.
   template <class S>
   S spring_force_N(const S& contraction_ratio) const {
-    return -rig().joint.spring_force_N(S((contraction_ratio - spring_from_) * side_.braid().rest_length_m()));
+    const S rise = rise_m(contraction_ratio);
+    if (!lever_) return -rig().joint.spring_force_N(rise);
+    const Stand<S> stand = turning_->at(rise);
+    return -lever_->spring().pull(stand.angle_rad) / stand.arm_m;
   }
 
   /// State at the start of a run: at rest, pressures at the references of the first currents.
@@ -92,7 +100,8 @@ class PlantOf {
     const auto one = isfinite(state.joint.contraction_speed_per_s) &&
                      side_.in_domain(state.joint.contraction_ratio, state.side);
     if constexpr (sides == 1)
-      return one;
+      return turning_ ? decltype(one)(one && turning_->in_domain(rise_m(state.joint.contraction_ratio)))
+                      : one;
     else
       return one && opposite_->in_domain(opposite_stroke(state).contraction_ratio, state.opposite);
   }
@@ -121,15 +130,53 @@ class PlantOf {
   void take_speed(double speed_per_s, State<double>& state, Ledger<double>& books) const;
 
   const RigOf<P>& rig() const { return side_.rig(); }
-  /// Weight [N] of what hangs on the wheel; 0 of a pair.
+  /// Weight [N] of what hangs on the wheel or on the lever; 0 of a pair.
   const P& weight_N() const { return side_.weight_N(); }
-  /// Mass [kg] that moves with the cord, wheel and link as if they were hung there.
+  /// Mass [kg] that moves with the cord, wheel and link as if they were hung there; a lever apart.
   const P& moved_kg() const { return mass_kg_; }
-  /// Mass [kg] hung on the wheel, without what hangs there besides; 0 of a pair.
+  /// The same with the lever, as it is felt at a contraction ratio.
+  double moved_kg(double contraction_ratio) const {
+    if (!lever_) return mass_kg_;
+    const double arm_m = turning_->at(rise_m(contraction_ratio)).arm_m;
+    return mass_kg_ + inertia_kg_m2_ / (arm_m * arm_m);
+  }
+  /// Mass [kg] that is hung on the rig, without what hangs there besides; 0 of a pair.
   const P& load_kg() const { return load_kg_; }
-  /// Joint angle [rad] of a pair.
+  /// Whether the joint's angle is what is read, and not the height of a load.
+  bool has_angle() const { return opposite_ || lever_; }
+  /// Joint angle [rad], its speed for a speed of the contraction ratio, and the arm [m] of the (first) cord.
   double angle_rad(double contraction_ratio) const {
-    return (contraction_ratio - link_.contraction_ratio) * side_.braid().rest_length_m() / radius_m_;
+    const double rise = (contraction_ratio - mounted_) * side_.braid().rest_length_m();
+    return lever_ ? turning_->at(rise).angle_rad : rise / radius_m_;
+  }
+  double angle_speed_rad_per_s(const JointState<double>& joint) const {
+    return side_.braid().rest_length_m() / arm_m(joint.contraction_ratio) * joint.contraction_speed_per_s;
+  }
+  /// The same in rest lengths.
+  double shown_ratio(double contraction_ratio) const {
+    return lever_ ? shown_m(contraction_ratio) / side_.braid().rest_length_m() : contraction_ratio - mounted_;
+  }
+  double shown_speed_m_per_s(const JointState<double>& joint) const {
+    return lever_ ? radius_m_ * angle_speed_rad_per_s(joint)
+                  : joint.contraction_speed_per_s * side_.braid().rest_length_m();
+  }
+  double arm_m(double contraction_ratio) const {
+    return lever_ ? turning_->at(rise_m(contraction_ratio)).arm_m : radius_m_;
+  }
+  double arm_at_rest_m() const { return arm_m(mounted_); }
+  /// What the wheel that reads the joint shows [m]: the rise of the cord, of a lever its angle on that wheel.
+  double shown_m(double contraction_ratio) const {
+    return lever_ ? radius_m_ * angle_rad(contraction_ratio) : rise_m(contraction_ratio);
+  }
+  /// How the cord has risen since the muscle was mounted.
+  template <class S>
+  S rise_m(const S& contraction_ratio) const {
+    return (contraction_ratio - mounted_) * side_.braid().rest_length_m();
+  }
+  /// The contraction ratio of a joint angle [rad].
+  double ratio_at_rad(double angle_rad) const {
+    const double rise = lever_ ? turning_->rise_m(angle_rad) : radius_m_ * angle_rad;
+    return mounted_ + rise / side_.braid().rest_length_m();
   }
   /// Where the opposite cord's end is.
   template <class S>
@@ -169,20 +216,33 @@ class PlantOf {
   }
   template <int sides, class S, class H>
   void joint_balance(const State<S>& state, const HeldOf<H>& held, Moment<S>& now) const;
+  /// What a lever adds to the other forces at the cord, and to the mass that moves there.
+  template <class S>
+  void lever_balance(const Stand<S>& stand, const S& outer_N, Moment<S>& now, S& others, S& mass_kg) const;
+  template <class S>
+  S joint_stop_force_N(const S& rise_m, const S& speed_m_per_s) const;
+  void take_stops();
 
   SideOf<P> side_;
   std::optional<SideOf<P>> opposite_;
   LinkOf<P> link_{};
+  std::optional<LeverOf<P>> lever_{};
+  std::optional<TurningOf<P>> turning_{};
   Memories memories_;
   bool polytropic_, springs_;  // gas not isothermal, a return spring
+  bool stops_ = false;         // the joint's way has ends
   P load_kg_ = 0.0, radius_m_, opposite_share_ = 0.0, mass_kg_, damping_N_s_per_m_;
-  P spring_from_ = 0.0;  // the contraction ratio that its rise counts from
+  P mounted_ = 0.0;                                  // the contraction ratio that the cord's rise counts from
+  P hanging_N_ = 0.0;                                // straight on the cord
+  P inertia_kg_m2_ = 0.0, weight_moment_N_m_ = 0.0;  // of a lever with its load
+  P lowest_m_ = 0.0, highest_m_ = 0.0;               // rise of the cord at the joint's stops
 };
 using Plant = PlantOf<double>;
 
 /// What a rig's mechanics make of it: a load [kg] hangs on one muscle, two turn a link.
 inline Plant plant_of(const Rig& rig, double load_kg = 0.0) {
-  return rig.pair() != nullptr ? Plant(rig, opposite_rig(rig), *rig.pair()) : Plant(rig, load_kg);
+  if (rig.pair() != nullptr) return Plant(rig, opposite_rig(rig), *rig.pair());
+  return rig.lever() != nullptr ? Plant(rig, load_kg, *rig.lever()) : Plant(rig, load_kg);
 }
 
 template <class P>
@@ -194,7 +254,44 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg)
       load_kg_(load_kg),
       radius_m_(rig.joint.wheel_radius_m),
       mass_kg_(rig.moved_kg(load_kg)),
-      damping_N_s_per_m_(rig.joint.guide_damping_N_s_per_m) {}
+      damping_N_s_per_m_(rig.joint.guide_damping_N_s_per_m),
+      hanging_N_(side_.weight_N()) {
+  take_stops();
+}
+
+template <class P>
+PlantOf<P>::PlantOf(const RigOf<P>& rig, const P& load_kg, const LeverOf<P>& lever) : PlantOf(rig, load_kg) {
+  const P hung_kg = load_kg + rig.joint.load_offset_kg;
+  lever_ = lever;
+  turning_.emplace(lever);
+  mounted_ = lever.contraction_ratio;
+  mass_kg_ = rig.joint.moving_mass_kg;
+  damping_N_s_per_m_ = P(0.0);
+  hanging_N_ = P(0.0);
+  springs_ = lever.spring().is_there();
+  inertia_kg_m2_ =
+      lever.inertia_kg_m2 + rig.joint.wheel_inertia_kg_m2 + hung_kg * lever.load_at_m * lever.load_at_m;
+  if (lever.plane == Plane::vertical)
+    weight_moment_N_m_ = gravity_m_per_s2 * (lever.mass_kg * lever.centre_m + hung_kg * lever.load_at_m);
+  take_stops();
+}
+
+template <class P>
+void PlantOf<P>::take_stops() {
+  const JointOf<P>& joint = rig().joint;
+  const bool angles = has_angle();
+  stops_ = angles ? joint.has_angle_stops() : joint.has_contraction_stops();
+  constexpr double far_m = 1e6;
+  const auto at = [&](const P& angle_rad, const P& ratio) {
+    if (!angles) return rise_m(ratio);
+    return lever_ ? turning_->rise_m(angle_rad) : P(radius_m_ * angle_rad);
+  };
+  const auto &low = angles ? joint.lowest_rad : joint.lowest_ratio,
+             &high = angles ? joint.highest_rad : joint.highest_ratio;
+  const auto& nowhere = angles ? joint.nowhere_rad : joint.nowhere_ratio;
+  lowest_m_ = select(low > nowhere[0], at(joint.lowest_rad, joint.lowest_ratio), P(-far_m));
+  highest_m_ = select(high < nowhere[1], at(joint.highest_rad, joint.highest_ratio), P(far_m));
+}
 
 template <class P>
 PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<P>& link)
@@ -209,7 +306,8 @@ PlantOf<P>::PlantOf(const RigOf<P>& rig, const RigOf<P>& opposite, const LinkOf<
       mass_kg_((rig.joint.wheel_inertia_kg_m2 + link.inertia_kg_m2) / (radius_m_ * radius_m_) +
                rig.joint.moving_mass_kg),
       damping_N_s_per_m_(link.damping_N_m_s_per_rad / (radius_m_ * radius_m_)),
-      spring_from_(link.contraction_ratio) {
+      mounted_(link.contraction_ratio) {
+  take_stops();
   if (rig.friction.memory != opposite.friction.memory)
     throw std::invalid_argument("both sides of a pair have the same friction memory");
   if (any(side_.gas_energy_J_per_kg() != opposite_->gas_energy_J_per_kg()) ||
@@ -239,41 +337,6 @@ Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, con
   return now;
 }
 
-// Hanging load, or the link that two muscles turn.
-template <class P>
-template <int sides, class S, class H>
-void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<H>& held, Moment<S>& now) const {
-  using std::sin;
-  now.guide_force_N = -damping_N_s_per_m_ * now.speed_m_per_s;
-  S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - weight_N() + now.effects_pull_N -
-             held.joint_force_N;
-  now.spring_force_N = S(0.0);
-  if (springs_) {
-    now.spring_force_N = spring_force_N(state.joint.contraction_ratio);
-    others = others + now.spring_force_N;
-  }
-  if constexpr (sides == 2) {
-    const S lean = (state.joint.contraction_ratio - link_.contraction_ratio) *
-                       (side_.braid().rest_length_m() / radius_m_) -
-                   link_.hangs_at_rad;
-    others = others - now.opposite.braid_force_N - now.opposite.stop_force_N - now.opposite.effects_pull_N -
-             link_.mass_kg * gravity_m_per_s2 * link_.length_m / radius_m_ * sin(lean);
-  }
-  if (has_events()) {  // the joint sticks or slips as a whole, the opposite threads the other way
-    const S level = friction_level_N<sides>(now);
-    S whole = held.slip == Slip::rising ? S(-level) : level;
-    if (held.slip == Slip::sticking) whole = held.length_is_given ? S(0.0) : S(-others);
-    now.friction_force_N = whole;
-    if constexpr (sides == 2) {
-      now.friction_force_N = whole * (now.friction_level_N / level);
-      now.opposite.friction_force_N = now.friction_force_N - whole;
-    }
-  }
-  const S all = others + friction_force_N<sides>(now);
-  now.bench_force_N = (held.length_is_given ? S(-all) : S(0.0)) - held.joint_force_N;
-  now.acceleration_m_per_s2 = held.length_is_given ? S(0.0) : S(all / mass_kg_);
-}
-
 template <class P>
 template <int sides, class S>
 State<S> PlantOf<P>::rates(const State<S>& state, const Moment<S>& now) const {
@@ -287,82 +350,7 @@ State<S> PlantOf<P>::rates(const State<S>& state, const Moment<S>& now) const {
   return dt;
 }
 
-template <class P>
-template <int sides, class S>
-Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
-                                   const Ledger<P>& books) const {
-  const S& v = now.speed_m_per_s;
-  const S none = S(0.0);
-  Ledger<S> rates{now.supply_flow,
-                  now.vent_flow,
-                  now.leak_flow,
-                  S(now.braid_force_N * v),
-                  S(-now.friction_force_N * v),
-                  S(-now.guide_force_N * v),
-                  S(now.stop_force_N * v),
-                  S(now.effects_pull_N * v),
-                  S(now.bench_force_N * v),
-                  none,
-                  none,
-                  none,
-                  none,
-                  none,
-                  none,
-                  none};
-  if constexpr (sides == 2) {
-    const SideMoment<S>& other = now.opposite;
-    const S& u = other.speed_m_per_s;
-    rates.air_drawn_kg = rates.air_drawn_kg + other.supply_flow;
-    rates.air_vented_kg = rates.air_vented_kg + other.vent_flow;
-    rates.air_leaked_kg = rates.air_leaked_kg + other.leak_flow;
-    rates.braid_work_J = rates.braid_work_J + other.braid_force_N * u;
-    rates.thread_friction_work_J = rates.thread_friction_work_J - other.friction_force_N * u;
-    rates.stop_work_J = rates.stop_work_J + other.stop_force_N * u;
-    rates.effects_work_J = rates.effects_work_J + other.effects_pull_N * u;
-  }
-  if (polytropic_) {
-    rates.air_drawn_kg = rates.air_vented_kg = rates.air_leaked_kg = none;
-    books_of_gas({state.joint.contraction_ratio, state.joint.contraction_speed_per_s}, side_, state.side, now,
-                 books.valve_air_kg, books.muscle_air_kg, rates, rates.valve_air_kg, rates.muscle_air_kg);
-    if constexpr (sides == 2)
-      books_of_gas(opposite_stroke(state), *opposite_, state.opposite, now.opposite,
-                   books.opposite_valve_air_kg, books.opposite_muscle_air_kg, rates,
-                   rates.opposite_valve_air_kg, rates.opposite_muscle_air_kg);
-  }
-  return rates;
-}
-
-// With polytropic gas the pressure rates count each flow q as the enthalpy of q at the walls' temperature T.
-// Gas of another temperature carries it with another mass: q T/T_gas of the volume it leaves, where
-// p V = m R T_gas. Else q is the mass.
-template <class P>
-template <class S>
-void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, const SideState<S>& state,
-                              const SideMoment<S>& now, const P& valve_air_kg, const P& muscle_air_kg,
-                              Ledger<S>& rates, S& valve_rate, S& muscle_rate) const {
-  const P &atmosphere = side.rig().gas.atmosphere_Pa, &RT = side.gas_energy_J_per_kg();
-  const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
-  S in_valve = S(1.0), in_muscle = S(1.0);  // T/T_gas
-  if (any(side.rig().effects.gas_exponent() != 1.0)) {
-    in_valve = valve_air_kg * RT / ((state.valve_pressure_Pa + atmosphere) * side.rig().valve.volume_m3);
-    in_muscle = muscle_air_kg * RT / (muscle_Pa * now.volume_m3);
-  }
-  const auto carried = [](const S& flow, const S& from, const S& back) {
-    return S(flow * select(flow < 0.0, back, from));
-  };
-  const S outside = S(1.0);
-  const S drawn = carried(now.supply_flow, outside, in_valve);
-  const S vented = carried(now.vent_flow, in_valve, outside);
-  const S leaked = carried(now.leak_flow, in_muscle, outside);
-  const S through_hose = carried(now.hose_flow, in_valve, in_muscle);
-  rates.air_drawn_kg = rates.air_drawn_kg + drawn;
-  rates.air_vented_kg = rates.air_vented_kg + vented;
-  rates.air_leaked_kg = rates.air_leaked_kg + leaked;
-  valve_rate = drawn - vented - through_hose;
-  muscle_rate = through_hose - leaked;
-  rates.air_inflow_J = rates.air_inflow_J + RT * (now.supply_flow - now.vent_flow - now.leak_flow);
-  rates.gas_work_J = rates.gas_work_J + muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s;
-  rates.gas_heat_J = rates.gas_heat_J + now.volume_m3 * now.heating_Pa_per_s;
-}
-
 }  // namespace mckibben::plant
+
+#include <plant/books.hpp>
+#include <plant/joint_balance.hpp>

@@ -16,6 +16,7 @@
 
 #include <plant/effects.hpp>
 #include <plant/geometry.hpp>
+#include <plant/lever.hpp>
 #include <plant/mechanics.hpp>
 #include <plant/muscle.hpp>
 #include <plant/sensors.hpp>
@@ -43,17 +44,8 @@ struct GasOf {
 };
 using Gas = GasOf<double>;
 
-/// Whether a return spring pulls and pushes, or hangs slack where it would push.
-enum class SpringWays { both, one };
-constexpr auto names(SpringWays) {
-  using enum SpringWays;
-  return std::array{std::pair{both, std::string_view{"both"}}, std::pair{one, std::string_view{"one"}}};
-}
-constexpr bool absent(SpringWays ways) {
-  return ways == SpringWays::both;
-}
-
-/// What the muscle moves: hanging load on a wheel, the guide it runs in, and a return spring.
+/// What the muscle moves: hanging load on a wheel, the guide it runs in, a return spring and the ends of its
+/// way.
 template <class P>
 struct JointOf {
   P wheel_radius_m = 0.030;
@@ -65,6 +57,12 @@ struct JointOf {
   SpringWays spring_ways = SpringWays::both;
   P length_offset_m = 0.0;
   P reading_offset_m = 0.0;
+  P lowest_ratio = nowhere_ratio[0], highest_ratio = nowhere_ratio[1];
+  P lowest_rad = nowhere_rad[0], highest_rad = nowhere_rad[1];
+  P stop_N_per_m = 3.0e5, stop_damping_s_per_m = 19.0;
+
+  /// Ends that no joint gets to.
+  static constexpr std::array nowhere_ratio{-1.0, 1.0}, nowhere_rad{-180.0 * degree_rad, 180.0 * degree_rad};
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -85,22 +83,36 @@ struct JointOf {
           "by how much a muscle whose length is given is shorter than is said: zero of the bench, clamps");
     visit("reading_offset", self.reading_offset_m, "m", -0.1, 0.1,
           "by how much the load is read higher than it stands: zero of a laser or a potentiometer");
+    visit("lowest_contraction", self.lowest_ratio, "1", nowhere_ratio[0], nowhere_ratio[1],
+          "a stop holds the load there; -1: nowhere");
+    visit("highest_contraction", self.highest_ratio, "1", nowhere_ratio[0], nowhere_ratio[1],
+          "the same above it; 1: nowhere");
+    visit("lowest_angle", self.lowest_rad, "rad", nowhere_rad[0], nowhere_rad[1],
+          "the same of a pair or a lever; -180 deg: nowhere");
+    visit("highest_angle", self.highest_rad, "rad", nowhere_rad[0], nowhere_rad[1], "180 deg: nowhere");
+    visit("stop_stiffness", self.stop_N_per_m, "N/m", 1e3, 1e8, "of both stops, as at the cord");
+    visit("stop_damping", self.stop_damping_s_per_m, "s/m", 0.0, 1e3, "Hunt-Crossley");
   }
 
-  /// Of any of the rigs in lanes.
-  bool has_spring() const { return any(spring_N_per_m != 0.0) || any(spring_preload_N != 0.0); }
-  /// Force [N] of the return spring on the cord at a rise [m], against it where positive.
+  /// What returns the cord, over its rise.
+  SpringOf<P> spring() const { return {spring_preload_N, spring_N_per_m, spring_ways}; }
+  bool has_spring() const { return spring().is_there(); }
+  /// Force [N] of it on the cord at a rise [m], against it where positive; and its energy.
   template <class S>
   S spring_force_N(const S& rise_m) const {
-    const S force_N = spring_preload_N + spring_N_per_m * rise_m;
-    return spring_ways == SpringWays::one ? S(select(force_N > 0.0, force_N, S(0.0))) : force_N;
+    return spring().pull(rise_m);
   }
-  /// The integral of that over the rise [J].
-  double spring_energy_J(double rise_m) const {
-    const double pulled_N = spring_force_N(rise_m);
-    if (spring_ways == SpringWays::both || spring_N_per_m == 0.0)
-      return 0.5 * (pulled_N + spring_force_N(0.0)) * rise_m;
-    return 0.5 * pulled_N * pulled_N / spring_N_per_m;
+  double spring_energy_J(double rise_m) const { return spring().energy_J(rise_m); }
+  bool has_angle_stops() const {
+    return any(lowest_rad > nowhere_rad[0]) || any(highest_rad < nowhere_rad[1]);
+  }
+  bool has_contraction_stops() const {
+    return any(lowest_ratio > nowhere_ratio[0]) || any(highest_ratio < nowhere_ratio[1]);
+  }
+  template <class Report>
+  void rules(Report& report) const {
+    if (lowest_ratio >= highest_ratio) report("highest_contraction", "must be above lowest_contraction");
+    if (lowest_rad >= highest_rad) report("highest_angle", "must be above lowest_angle");
   }
 };
 using Joint = JointOf<double>;
@@ -154,7 +166,12 @@ struct RigOf {
   /// The second muscle and the link, or null.
   const Pair* pair() const { return std::get_if<Pair>(&mechanics); }
   Pair* pair() { return std::get_if<Pair>(&mechanics); }
-  bool lifts_a_load() const { return std::holds_alternative<HangingLoad>(mechanics); }
+  /// What one muscle turns, or null.
+  const Lever* lever() const { return std::get_if<Lever>(&mechanics); }
+  Lever* lever() { return std::get_if<Lever>(&mechanics); }
+  /// Whether the joint's angle is what is read and wanted, and not the height of a load.
+  bool has_angle() const { return pair() != nullptr || lever() != nullptr; }
+  bool lifts_a_load() const { return std::holds_alternative<HangingLoad>(mechanics) || lever() != nullptr; }
   bool holds_a_length() const { return std::holds_alternative<HeldLength>(mechanics); }
   /// Mass [kg] that moves with the cord under a load, the wheel as if it hung there.
   P moved_kg(const P& load_kg) const {
@@ -163,18 +180,20 @@ struct RigOf {
   }
   /// What pulls at the muscle at rest length under a load, with a return spring, as a load [kg].
   double pulled_kg(double load_kg) const {
-    return load_kg + joint.load_offset_kg + joint.spring_force_N(0.0) / gravity_m_per_s2;
+    if (lever() != nullptr) return pulled_by_lever_kg(*this, load_kg);
+    return load_kg + joint.load_offset_kg + joint.spring().pull(0.0) / gravity_m_per_s2;
   }
   /// Whether a load can hang there: it does not pull upwards, and something moves.
   bool can_hang(double load_kg) const {
-    return load_kg + joint.load_offset_kg >= 0.0 && moved_kg(load_kg) > 0.0;
+    return load_kg + joint.load_offset_kg >= 0.0 && (lever() != nullptr || moved_kg(load_kg) > 0.0);
   }
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     parts(self, visit);
     visit("mechanics", self.mechanics,
-          "what the muscle pulls on: hanging_load (if left out), held_length or pair (docs/two_muscles.md)");
+          "what the muscle pulls on: hanging_load (if left out), lever (docs/lever.md), held_length or pair "
+          "(docs/two_muscles.md)");
     visit("integrator", self.integrator, "how the equations are solved");
   }
   template <class Self, class Visitor>
@@ -206,6 +225,15 @@ struct RigOf {
     side_rules(report);
     if (holds_a_length() && joint.has_spring())
       report("joint", "spring and spring_preload act on a joint that moves, not on a muscle of held_length");
+    if (joint.has_angle_stops() && !has_angle())
+      report("joint",
+             "lowest_angle and highest_angle are of a pair or a lever: say lowest_contraction, "
+             "highest_contraction");
+    if (joint.has_contraction_stops() && !std::holds_alternative<HangingLoad>(mechanics))
+      report("joint", has_angle() ? "lowest_contraction and highest_contraction are of a hanging load: say "
+                                    "lowest_angle, highest_angle"
+                                  : "stops are of a joint that moves, not of a muscle of held_length");
+    if (lever() != nullptr) lever_rules(*this, report);
     if (pair() == nullptr) return;
     pair_rules(report);
     if (sensors.of(Sensed::force) != nullptr)
@@ -328,3 +356,5 @@ inline Rig opposite_rig(const Rig& rig) {
 }
 
 }  // namespace mckibben::plant
+
+#include <plant/lever_rules.hpp>

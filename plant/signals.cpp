@@ -8,12 +8,20 @@
 namespace mckibben::plant {
 namespace {
 
+bool has_angle(const Rig& rig, const Driven& driven) {
+  return driven.pair || rig.lever() != nullptr;
+}
+
 bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
   const Needs needs = channel.signal->needs;
   if (rig.valve.seals() && (needs == Needs::command || needs == Needs::valve)) return false;
   switch (needs) {
+    case Needs::height:
+      return !has_angle(rig, driven);
     case Needs::one_muscle:
       return !driven.pair;
+    case Needs::angle:
+      return has_angle(rig, driven);
     case Needs::pair:
       return driven.pair;
     case Needs::command:
@@ -22,9 +30,9 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
     case Needs::valve:
       return driven.pressure[channel.muscle == 2 ? 1 : 0] != GivenPressure::muscle;
     case Needs::outer_force:
-      return driven.joint_force && !driven.pair;
+      return driven.joint_force && !has_angle(rig, driven);
     case Needs::outer_torque:
-      return driven.joint_force && driven.pair;
+      return driven.joint_force && has_angle(rig, driven);
     case Needs::sensor:
       return exists({&signal_of(channel.signal->reads), channel.muscle}, rig, driven) &&
              std::any_of(rig.sensors.begin(), rig.sensors.end(), [&](const Sensor& sensor) {

@@ -39,7 +39,7 @@ struct Sample : SideSample {
   std::int64_t counts = 0;
   double read_ratio = 0.0, read_angle_rad = 0.0;        ///< by these counts
   double misread_ratio = 0.0;                           ///< what an encoder shows besides e, before it counts
-  double angle_rad = 0.0, angle_speed_rad_per_s = 0.0;  ///< of a pair's joint
+  double angle_rad = 0.0, angle_speed_rad_per_s = 0.0;  ///< of the joint of a pair or a lever
   double torque_N_m = 0.0, stiffness_N_m_per_rad = 0.0;
   double joint_force_N = 0.0, joint_torque_N_m = 0.0;  ///< from outside, from here to the next row
   SideSample opposite{};                               ///< muscle 2 of a pair
@@ -55,8 +55,8 @@ struct Sample : SideSample {
 struct Driven {
   bool pair = false, length = false;        ///< two muscles; the length of one is given
   std::array<GivenPressure, 2> pressure{};  ///< of each muscle: that of its valve or its own is given
-  bool joint_force = false;                 ///< a force, of a pair a torque, acts on the joint from outside
-  bool force = false;                       ///< the force of the cord is measured
+  bool joint_force = false;  ///< a force, of a joint with an angle a torque, acts on it from outside
+  bool force = false;        ///< the force of the cord is measured
 };
 
 /// A unit of columns: as UDUNITS-2 spells it, at the end of a column's name, and how much one is in the
@@ -70,8 +70,20 @@ struct Unit {
 
 enum class Kind { time, input, state, reading };
 enum class Part { joint, muscle };
-/// What a rig must have for a signal to exist.
-enum class Needs { nothing, one_muscle, pair, command, valve, sensor, outer_force, outer_torque };
+/// What a rig must have for a signal to exist: one muscle; or a joint whose angle is read, of two muscles or
+/// a lever, or else whose height is. Outer forces are of these, torques of those.
+enum class Needs {
+  nothing,
+  height,
+  one_muscle,
+  angle,
+  pair,
+  command,
+  valve,
+  sensor,
+  outer_force,
+  outer_torque
+};
 /// Whether it is a column of the files of runs; a force only of pairs, and where it is measured or a length
 /// is given. Pages, Python and FMUs have all signals.
 enum class InFiles { yes, no, measured_force };
@@ -149,13 +161,13 @@ inline constexpr auto signals = std::to_array<Signal>({
     {.key = "angle",
      .unit = units::rad,
      .words = "joint angle, positive as muscle 1 contracts",
-     .needs = Needs::pair,
+     .needs = Needs::angle,
      .value = [](const Sample& row, std::size_t) { return row.angle_rad; },
      .in_dataset = "angle"},
     {.key = "angle_speed",
      .unit = units::rad_per_s,
      .words = "speed of the joint angle",
-     .needs = Needs::pair,
+     .needs = Needs::angle,
      .value = [](const Sample& row, std::size_t) { return row.angle_speed_rad_per_s; }},
     {.key = "reference_pressure",
      .unit = units::bar,
@@ -213,14 +225,14 @@ inline constexpr auto signals = std::to_array<Signal>({
      .unit = units::ratio,
      .words = "contraction ratio as it is counted",
      .kind = Kind::reading,
-     .needs = Needs::one_muscle,
+     .needs = Needs::height,
      .value = [](const Sample& row, std::size_t) { return row.read_ratio; },
      .reads = "contraction_ratio"},
     {.key = "encoder_angle",
      .unit = units::rad,
      .words = "joint angle as it is counted",
      .kind = Kind::reading,
-     .needs = Needs::pair,
+     .needs = Needs::angle,
      .value = [](const Sample& row, std::size_t) { return row.read_angle_rad; },
      .reads = "angle"},
     {.key = "counts",
@@ -265,8 +277,8 @@ inline constexpr auto signals = std::to_array<Signal>({
      .in_files = InFiles::no},
     {.key = "torque",
      .unit = units::N_m,
-     .words = "torque of both muscles on the joint",
-     .needs = Needs::pair,
+     .words = "torque of the muscles on the joint",
+     .needs = Needs::angle,
      .value = [](const Sample& row, std::size_t) { return row.torque_N_m; },
      .in_files = InFiles::no},
     {.key = "stiffness",

@@ -67,6 +67,7 @@ struct Shuffle {
   Chance& chance;
   double factor = 0.0;
   int one_in = 4;
+  bool ends_of_the_way = false;  ///< have been walked
 
   void operator()(std::string_view key, double& value, std::string_view, double lowest, double highest,
                   std::string_view) {
@@ -75,6 +76,10 @@ struct Shuffle {
     if (key == "spring_preload") return;                           // beyond what the threads bear, most of it
     if (key == "end_length" || key == "exhaust_pressure") return;  // against the rules, most of it
     if (key == "lowest_command") return;
+    ends_of_the_way = ends_of_the_way || key == "lowest_contraction";  // a joint has none
+    if (ends_of_the_way &&
+        (key.ends_with("_contraction") || key.ends_with("_angle") || key.starts_with("stop_")))
+      return;
     if (factor > 0.0) {
       value = std::clamp(value * chance.around(1.0, factor), lowest, highest);
     } else if (lowest > 0.0 && highest > 50.0 * lowest) {

@@ -76,7 +76,7 @@ void write_tables(Job& job, const domain::Scenario& scenario, const run::Compari
     output::Targets targets;
     if (run.followed()) {
       const run::Wanted& wanted = comparison.targets[run.target];
-      targets = {{pair ? "angle" : "contraction_ratio", wanted.values},
+      targets = {{scenario.rig.has_angle() ? "angle" : "contraction_ratio", wanted.values},
                  {"stiffness", wanted.stiffness_N_m_per_rad}};
       attributes = {{"load_kg", run.load_kg}, {"controller", run.controller}};
     }

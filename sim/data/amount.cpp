@@ -49,7 +49,7 @@ std::pair<std::string, std::string_view> told(domain::Beside which, bool pair) {
 }
 
 double reading_per_count(const plant::Rig& rig) {
-  if (rig.pair() == nullptr) return plant::count_height_m(rig) / rig.muscle.rest_length_m;
+  if (!rig.has_angle()) return plant::count_height_m(rig) / rig.muscle.rest_length_m;
   return plant::count_height_m(rig) / rig.joint.wheel_radius_m;
 }
 

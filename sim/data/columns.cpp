@@ -299,7 +299,8 @@ class Columns {
                           in_words(quantity.place.unit));
     }
     if (!unit || unit->name != divided_twice) what = mend(what, line_of(quantity.key, meant));
-    if (opposite && quantity.key == "angle") what += ", or exchange muscle 1 and muscle 2";
+    if (opposite && data_.rig.pair() != nullptr && quantity.key == "angle")
+      what += ", or exchange muscle 1 and muscle 2";
     const double seen = quantity.by_mean ? mean(rows.measured)
                         : opposite       ? range(rows.measured)
                                          : largest(rows.measured);

@@ -30,6 +30,7 @@ class Readings {
         result_(result),
         bench_(data.lengths_are_given()),
         pair_(data.rig.pair() != nullptr),
+        angle_(data.rig.has_angle()),
         count_(reading_grain(data.judged(), data.rig)) {}
 
   void operator()() {
@@ -48,8 +49,8 @@ class Readings {
 
  private:
   /// The judged reading's column, and what shows it.
-  const char* reading() const { return pair_ ? "angle_rad" : "contraction_ratio"; }
-  const char* moving() const { return pair_ ? "joint" : "load"; }
+  const char* reading() const { return angle_ ? "angle_rad" : "contraction_ratio"; }
+  const char* moving() const { return angle_ ? "joint" : "load"; }
   bool of_points(std::size_t run) const {
     return data_.runs[run].measured && data_.runs[run].measured->point_s > 0.0;
   }
@@ -135,7 +136,7 @@ class Readings {
     else if (should > of_readings.should_move_counts * count_)
       leave_out(i, fmt::format("the reading never changes, though the {0} should move by {1} (is the "
                                "{2} connected, the {0} held?)",
-                               moving(), amount(should), pair_ ? "sensor" : "encoder"));
+                               moving(), amount(should), angle_ ? "sensor" : "encoder"));
     else
       leave_out(i, "nothing moves");
     return false;
@@ -244,8 +245,8 @@ class Readings {
   const std::string command_ = plant::command_key(data_.rig);
   const std::vector<Expected>& expected_;
   Examined& result_;
-  bool bench_;  ///< lengths are given, and forces or pressures judged
-  bool pair_;   ///< two muscles turn a joint, and its angle is judged
+  bool bench_;         ///< lengths are given, and forces or pressures judged
+  bool pair_, angle_;  ///< two muscles turn a joint; its angle is judged, or a lever's
   double count_;
 };
 
@@ -284,7 +285,7 @@ void require_enough(const domain::Dataset& data, const std::vector<bool>& left_o
              loads_kg.size(), loads_kg.size() == 1 ? "" : "s",
              judged == domain::Judged::force      ? "each its own length"
              : judged == domain::Judged::pressure ? "to other pressures, fast and slow"
-             : judged == domain::Judged::angle    ? "each with other trajectories of the two pressures"
+             : data.rig.pair() != nullptr         ? "each with other trajectories of the two pressures"
                                                   : "two loads and two kinds of current"),
          .severity = Severity::undecidable});
   else if (judged == domain::Judged::contraction &&

@@ -31,8 +31,8 @@ double median_gap_s(const std::vector<double>& time_s) {
 /// One run: its rows, and the stamps that drive it.
 class Judging {
  public:
-  Judging(domain::Run& run, bool pair, double row_s, std::size_t seed)
-      : run_(run), raw_(*run.measured), pair_(pair), row_s_(row_s), random_(seed) {}
+  Judging(domain::Run& run, bool angle, double row_s, std::size_t seed)
+      : run_(run), raw_(*run.measured), angle_(angle), row_s_(row_s), random_(seed) {}
 
   void operator()() {
     if (raw_.gives_length()) leave_out_slack();
@@ -209,7 +209,7 @@ class Judging {
           *std::ranges::find_if(domain::besides, [&](auto which) { return is_read(shown_by(which)); });
       return {shown_by(*judged_gauge_), run_.gauge(*judged_gauge_).emplace()};
     }
-    if (pair_) return {raw_.read("angle"), run_.angle_rad};
+    if (angle_) return {raw_.read("angle"), run_.angle_rad};
     if (raw_.gives_length()) return {raw_.read("force"), run_.force_N};
     return {raw_.read("contraction"), run_.contraction_ratio};
   }
@@ -317,7 +317,7 @@ class Judging {
 
   domain::Run& run_;
   Measurement raw_;
-  bool pair_;
+  bool angle_;  // is judged
   double row_s_;
   std::mt19937_64 random_;
   bool fast_ = false;
@@ -357,7 +357,7 @@ domain::Dataset with_rows(domain::Dataset data) {
     if (!run.measured->read("force").empty())
       rows.at_the_end +=
           leave_out_the_end(data.rig.sensors.of(plant::Sensed::force), run.measured->take("force"));
-    Judging judging(run, data.rig.pair() != nullptr, rows.row_s, i + 1);
+    Judging judging(run, data.rig.has_angle(), rows.row_s, i + 1);
     judging();
     rows.rows += run.judged().size();
     rows.inputs += run.measured->time_s.size();

@@ -173,7 +173,7 @@ std::vector<Candidate> catalogue(const domain::Dataset& data) {
   };
   const bool pair = data.rig.pair() != nullptr;
   std::vector<Candidate> list = in_sight({.hidden = hooks,
-                                          .load_guide = !pair,
+                                          .load_guide = !data.rig.has_angle(),
                                           .gauge = given || read(&domain::Run::muscle_pressure_Pa),
                                           .opposite_gauge = given || read(&domain::Run::opposite_pressure_Pa),
                                           .pair = pair});

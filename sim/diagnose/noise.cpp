@@ -9,6 +9,7 @@
 #include <variant>
 
 #include <plant/instruments.hpp>
+#include <plant/plant.hpp>
 #include <sim/data/amount.hpp>
 #include <sim/data/series.hpp>
 #include <sim/diagnose/noise.hpp>
@@ -269,7 +270,7 @@ Least least_of(const domain::Dataset& data) {
     case domain::Judged::force:
       return {tolerance * largest_force_N(data), assumed.least_force_N};
     case domain::Judged::angle: {
-      const double turn_rad = data.rig.muscle.rest_length_m / data.rig.joint.wheel_radius_m;
+      const double turn_rad = data.rig.muscle.rest_length_m / plant::plant_of(data.rig).arm_at_rest_m();
       return {tolerance * turn_rad, assumed.least_ratio * turn_rad};
     }
     case domain::Judged::pressure:

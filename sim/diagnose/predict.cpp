@@ -21,6 +21,7 @@ class Prediction final : public run::Follower {
       : Follower({rigs.begin(), rigs.end()}, rigs.front().rig, run::course_of(run, rigs.front().rig),
                  std::move(disturbance)),
         pair_(rigs.front().rig.pair() != nullptr),
+        angle_(rigs.front().rig.has_angle()),
         forces_(run.length_is_given()),
         gauge_(run.judged_gauge()),
         force_beside_(run.beside(domain::Beside::force) != nullptr),
@@ -61,11 +62,11 @@ class Prediction final : public run::Follower {
 
   /// Of the wheel's rim, for a reading of 1.
   double travel_m(const plant::Rig& rig) const {
-    if (pair_) return rig.joint.wheel_radius_m;
+    if (angle_) return rig.joint.wheel_radius_m;
     return rest_length_m_ > 0.0 ? rest_length_m_ : rig.muscle.rest_length_m;
   }
 
-  bool pair_;                                                 // angles are read
+  bool pair_, angle_;                                         // two muscles; angles are read
   bool forces_;                                               // are read, at lengths that are given
   std::optional<domain::Beside> gauge_;                       // that is judged, where only pressures are read
   bool force_beside_, valve_beside_, opposite_valve_beside_;  // of the cord, of valves are read besides

@@ -42,13 +42,14 @@ std::string visited_by_pair(const domain::Dataset& data, const Runs& runs) {
 
 std::string visited(const domain::Dataset& data, const Runs& runs) {
   if (data.rig.pair() != nullptr) return visited_by_pair(data, runs);
-  Range current_mA, load_kg, ratio, pressure_bar;
+  Range current_mA, load_kg, ratio, pressure_bar, angle_deg;
   for (const std::size_t run : runs) {
     for (const double value : data.runs[run].current_mA) current_mA.see(value);
     const domain::Run& measured = data.runs[run];
     for (const double value :
          measured.length_is_given() ? measured.measured->given("contraction") : measured.contraction_ratio)
       ratio.see(value);
+    for (const double value : measured.angle_rad) angle_deg.see(value / plant::degree_rad);
     if (data.pressure_is_given())
       for (const double value : measured.measured->given("muscle_pressure"))
         pressure_bar.see(value / plant::Pa_per_bar);
@@ -63,6 +64,13 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
                                                               pressure_bar.low, pressure_bar.high)
                                                 : commanded,
                        ratio.low, ratio.high);
+  if (data.rig.lever() != nullptr)
+    return fmt::format(
+        "{}, loads of {:.4g} to {:.4g} kg and joint angles of {:.3g} to {:.3g} deg, as in these runs",
+        data.pressure_is_given()
+            ? fmt::format("pressures of {:.3g} to {:.3g} bar", pressure_bar.low, pressure_bar.high)
+            : commanded,
+        load_kg.low, load_kg.high, angle_deg.low, angle_deg.high);
   if (data.pressure_is_given())
     return fmt::format(
         "loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",

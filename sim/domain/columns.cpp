@@ -14,7 +14,9 @@ std::vector<Quantity> all_quantities(plant::CommandUnit unit) {
   const auto add = [&](const plant::Channel& channel) {
     Quantity quantity{channel, channel.key_in_dataset(), channel.name(), channel.words_in_dataset(),
                       all.size()};
-    if (!quantity.belongs(false)) quantity.words.insert(0, "of two muscles: ");
+    if (!quantity.belongs(false, false))
+      quantity.words.insert(
+          0, quantity.belongs(false, true) ? "of two muscles or a lever: " : "of two muscles: ");
     all.push_back(std::move(quantity));
   };
   for (const plant::Signal& signal : plant::signals) {
@@ -35,12 +37,13 @@ std::vector<Quantity> all_quantities(plant::CommandUnit unit) {
 
 }  // namespace
 
-bool Quantity::belongs(bool pair) const {
+bool Quantity::belongs(bool pair, bool angle) const {
   using plant::Needs;
   const plant::Signal& signal = *channel.signal;
   if (signal.part == plant::Part::muscle) return pair == (channel.muscle > 0);
-  if (signal.needs == Needs::one_muscle || signal.needs == Needs::outer_force) return !pair;
-  return pair || !(signal.needs == Needs::pair || signal.needs == Needs::outer_torque);
+  if (signal.needs == Needs::one_muscle || signal.needs == Needs::outer_force) return !angle;
+  if (signal.needs == Needs::angle || signal.needs == Needs::outer_torque) return angle;
+  return pair || signal.needs != Needs::pair;
 }
 
 plant::GivenPressure ColumnMap::given_pressure(std::size_t muscle) const {

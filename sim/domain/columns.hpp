@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <plant/rig.hpp>
 #include <plant/signals.hpp>
 
 namespace mckibben::domain {
@@ -98,8 +99,9 @@ struct Quantity {
   /// An input always drives.
   bool is_input() const { return channel.signal->kind == plant::Kind::input; }
   bool is_command() const { return channel.signal->in_dataset == command_key; }
-  /// Of two muscles, or of one; time is of all.
-  bool belongs(bool pair) const;
+  /// Of two muscles, or of one; of a joint whose angle is read, or a load's height; time is of all.
+  bool belongs(bool pair, bool angle) const;
+  bool belongs(const plant::Rig& rig) const { return belongs(rig.pair() != nullptr, rig.has_angle()); }
 };
 
 /// One for each signal that has a key in data sets, and for each muscle of two; of rigs that are commanded in

@@ -100,7 +100,10 @@ constexpr auto rules = std::to_array<Rule>({
      "it and the rig's joint.load_offset leave no load; at 0 kg joint.moving_mass or wheel_inertia moves"},
     {"start", [](const Said& s) { return s.points() && s.data.recorded.start == Start::moving; },
      "the rows of run {} are settled points"},
-    {"start", [](const Said& s) { return !s.hangs() && s.data.recorded.start == Start::moving; },
+    {"start",
+     [](const Said& s) {
+       return (!s.hangs() || s.rig.lever() != nullptr) && s.data.recorded.start == Start::moving;
+     },
      "run {} has no hanging load; the first state can be estimated of such runs only"},
     {"hold", [](const Said& s) { return s.points() && s.data.recorded.hold != Hold::usual; },
      "the rows of run {} are settled points: commands hold while a point is measured, pressures and lengths "
@@ -115,11 +118,14 @@ std::string with_run(std::string_view why, const Run& run) {
   return text;
 }
 
-/// The keys of columns of one muscle or of two, as a sentence lists them.
-std::string keys_of(bool pair) {
+/// The keys of columns that not every rig has, of this one, as a sentence lists them.
+std::string keys_of(const plant::Rig& rig) {
+  const auto of_others = [&](const Quantity& quantity) {
+    return !quantity.belongs(false, false) || !quantity.belongs(false, true) || !quantity.belongs(true, true);
+  };
   std::string list;
   for (const Quantity& quantity : quantities())
-    if (quantity.belongs(pair) && !quantity.belongs(!pair) && !quantity.is_old_current)
+    if (quantity.belongs(rig) && of_others(quantity) && !quantity.is_old_current)
       list.append(list.empty() ? "" : ", ").append(quantity.key);
   return list;
 }
@@ -176,10 +182,11 @@ std::vector<Contradiction> contradictions(const Dataset& data, const Run& run) {
   Said said{data, run};
   for (const Quantity& quantity : quantities()) {
     if (said.map[quantity].absent()) continue;
-    if (!quantity.belongs(said.pair()))
-      found.push_back(
-          {quantity.key,
-           (said.pair() ? "the rig has two muscles: " : "the rig has one muscle: ") + keys_of(said.pair())});
+    if (!quantity.belongs(said.rig))
+      found.push_back({quantity.key, (said.pair()                   ? "the rig has two muscles: "
+                                      : said.rig.lever() != nullptr ? "the rig's muscle turns a lever: "
+                                                                    : "the rig has one muscle: ") +
+                                         keys_of(said.rig)});
     else if (said.map[quantity].as == Role::input && !quantity.may_be_given())
       found.push_back({quantity.key, "it can only be a reading"});
   }

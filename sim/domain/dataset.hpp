@@ -18,7 +18,7 @@
 namespace mckibben::domain {
 
 /// The reading that models are judged by: contraction ratio; force [N] at lengths that a bench gives; joint
-/// angle [rad] of a pair; a pressure [Pa] where nothing but pressures was read.
+/// angle [rad] of a pair or a lever; a pressure [Pa] where nothing but pressures was read.
 enum class Judged { contraction, force, angle, pressure };
 constexpr auto names(Judged) {
   using enum Judged;
@@ -56,7 +56,7 @@ struct Run {
   std::vector<double> current_mA;  ///< held from its row to the next
   std::vector<double> contraction_ratio;
   std::vector<double> force_N;    ///< of the cord: judged where the length is given, else beside
-  std::vector<double> angle_rad;  ///< of a pair
+  std::vector<double> angle_rad;  ///< of a pair or a lever
   std::optional<std::vector<double>> muscle_pressure_Pa;
   std::optional<std::vector<double>> opposite_pressure_Pa;  ///< of muscle 2
   std::optional<std::vector<double>> valve_pressure_Pa, opposite_valve_pressure_Pa;
@@ -160,7 +160,7 @@ struct Dataset {
   double rows_begin_s() const { return rows_of_stamps ? recorded.skip_s : 0.0; }
   Judged judged() const {
     if (!runs.empty() && std::ranges::all_of(runs, &Run::reads_only_pressures)) return Judged::pressure;
-    if (rig.pair() != nullptr) return Judged::angle;
+    if (rig.has_angle()) return Judged::angle;
     return lengths_are_given() ? Judged::force : Judged::contraction;
   }
   /// A bench gives every run its length, and what is judged is the force,

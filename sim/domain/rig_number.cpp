@@ -118,6 +118,7 @@ RigNumber find_number(plant::Rig& rig, std::string_view path) {
   if (path.starts_with(of_mechanics)) {
     Guide guide(path.substr(of_mechanics.size()), rig.command_unit());
     if (plant::Pair* pair = rig.pair()) plant::Pair::fields(*pair, guide);
+    if (plant::Lever* lever = rig.lever()) plant::Lever::fields(*lever, guide);
     return guide.found;
   }
   std::string today;
@@ -136,9 +137,10 @@ std::vector<std::string> paths_of_numbers(const plant::Rig& rig) {
 
 std::vector<std::string> paths_with_mechanics(const plant::Rig& rig) {
   std::vector<std::string> list = paths_of_numbers(rig);
-  if (const plant::Pair* pair = rig.pair()) {
+  if (rig.has_angle()) {
     PathLister lister;
-    plant::Pair::fields(*pair, lister);
+    if (const plant::Pair* pair = rig.pair()) plant::Pair::fields(*pair, lister);
+    if (const plant::Lever* lever = rig.lever()) plant::Lever::fields(*lever, lister);
     for (const std::string& path : lister.list) list.push_back("mechanics." + path);
   }
   return list;
@@ -149,6 +151,8 @@ std::string broken_rule(const plant::Rig& rig) {
   plant::Rig::parts(rig, judge);
   if (const plant::Pair* pair = rig.pair())
     judge.enter("mechanics", *pair, [&] { plant::Pair::fields(*pair, judge); });
+  if (const plant::Lever* lever = rig.lever())
+    judge.enter("mechanics", *lever, [&] { plant::Lever::fields(*lever, judge); });
   judge.judge(rig);
   return judge.broken;
 }

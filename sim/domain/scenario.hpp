@@ -129,7 +129,8 @@ struct Scenario {
   std::string name;
   plant::Rig rig;
   std::vector<double> loads_kg;       ///< that hang; of a pair in the hand
-  controllers::Target target;         ///< of one muscle
+  controllers::Target target;         ///< of one muscle that lifts a load,
+  controllers::AngleTarget angle;     ///< or turns a lever
   std::vector<JointTarget> targets;   ///< of a pair
   double hand_m = Hand{}.distance_m;  ///< of a pair: from the axis to the load
   std::vector<TwoCurrents> currents;  ///< of a pair: runs without a controller
@@ -163,7 +164,10 @@ struct Scenario {
   template <class Self, class Visitor>
   static void fields_of_one(Self& self, Visitor& visit) {
     visit.required("loads", self.loads_kg, "kg", 0.0, 500.0, "masses of the loads");
-    visit.required("target", self.target, "the movement that is wanted");
+    if (self.rig.lever() != nullptr)
+      visit.required("target", self.angle, "the movement that is wanted");
+    else
+      visit.required("target", self.target, "the movement that is wanted; of a lever angles");
     fields_of_time(self, visit);
     visit_controllers<controllers::SingleSettings>(self, [&](auto& controllers) {
       if (self.rig.valve.seals())
@@ -175,7 +179,10 @@ struct Scenario {
     visit("joint_force", self.outer_forces,
           "forces on the cord in addition to the load, one after the other; none before the first");
     fields_of_chance(self, visit);
-    visit("criteria", self.criteria, "what counts as good enough");
+    if (self.rig.lever() != nullptr)
+      visit_criteria_of_joint(self, visit);
+    else
+      visit("criteria", self.criteria, "what counts as good enough");
     visit("robustness", self.robustness, "how controllers do on rigs that are not quite as described");
   }
 
@@ -193,6 +200,11 @@ struct Scenario {
     visit_controllers<controllers::PairSettings>(
         self, [&](auto& controllers) { visit("controllers", controllers, "what is to follow the targets"); });
     fields_of_chance(self, visit);
+    visit_criteria_of_joint(self, visit);
+  }
+
+  template <class Self, class Visitor>
+  static void visit_criteria_of_joint(Self& self, Visitor& visit) {
     visit_as<JointCriterion>(
         self.criteria, [](const Criterion& one) { return JointCriterion{one}; },
         [](const JointCriterion& one) -> Criterion { return one; },

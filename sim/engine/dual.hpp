@@ -62,6 +62,9 @@ struct Dual {
   friend Dual log(const Dual& x) { return {std::log(x.value), x.slopes * (1.0 / x.value)}; }
   friend Dual sin(const Dual& x) { return {std::sin(x.value), x.slopes * std::cos(x.value)}; }
   friend Dual cos(const Dual& x) { return {std::cos(x.value), x.slopes * -std::sin(x.value)}; }
+  friend Dual acos(const Dual& x) {
+    return {std::acos(x.value), x.slopes * (-1.0 / std::sqrt(1.0 - x.value * x.value))};
+  }
   friend Dual tanh(const Dual& x) {
     const double cosh = std::cosh(x.value);
     return {std::tanh(x.value), x.slopes * (1.0 / (cosh * cosh))};

@@ -120,6 +120,9 @@ inline Lanes sin(const Lanes& x) {
 inline Lanes cos(const Lanes& x) {
   return each_lane(x, [](double v) { return std::cos(v); });
 }
+inline Lanes acos(const Lanes& x) {
+  return each_lane(x, [](double v) { return std::acos(v); });
+}
 inline Lanes tanh(const Lanes& x) {
   return each_lane(x, [](double v) { return std::tanh(v); });
 }

@@ -155,7 +155,8 @@ class Linearising {
       result.input[its_speed] = i == 0 ? held.current_speed_mA_per_s : held.opposite.current_speed_mA_per_s;
     }
     const double arm_m = L::sides == 1 ? 1.0 : plant_.rig().joint.wheel_radius_m;  // of a torque
-    result.B(1, held_inputs) = 1.0 / (plant_.moved_kg() * arm_m * plant_.side().braid().rest_length_m());
+    result.B(1, held_inputs) =
+        1.0 / (plant_.moved_kg(result.state[0]) * arm_m * plant_.side().braid().rest_length_m());
   }
 
   /// Memories of what is not at work neither move nor do anything.

@@ -212,6 +212,21 @@ std::optional<plant::RigOf<Lanes>> as_one(std::vector<plant::Rig> rigs) {
   return rig;
 }
 
+/// The levers that the rigs turn, as one; they differ in numbers alone (kind_of).
+plant::LeverOf<Lanes> levers_as_one(std::span<const plant::Plant> plants) {
+  std::vector<Leaves> leaves;
+  for (const plant::Plant& plant : plants) {
+    plant::Lever lever = *plant.lever();
+    walk(lever, leaves.emplace_back());
+  }
+  std::vector<long> chosen;
+  for (const auto& choice : leaves.front().choices) chosen.push_back(choice.value_or(0));
+  plant::LeverOf<Lanes> lever;
+  Fill fill{leaves, chosen};
+  walk(lever, fill);
+  return lever;
+}
+
 /// What turns with the rigs, as one.
 plant::LinkOf<Lanes> as_one(std::span<const plant::Plant> pairs) {
   std::vector<Leaves> leaves;
@@ -254,6 +269,7 @@ std::optional<plant::PlantOf<Lanes>> vectorised(std::span<const plant::Plant> pl
   Lanes load_kg;
   for (std::size_t lane = 0; lane < Lanes::count; ++lane)
     load_kg.set(lane, plants[lane < plants.size() ? lane : 0].load_kg());
+  if (plants.front().lever()) return plant::PlantOf<Lanes>(*rig, load_kg, levers_as_one(plants));
   return plant::PlantOf<Lanes>(*rig, load_kg);
 }
 
@@ -266,11 +282,22 @@ void put(const plant::Held& held, std::size_t lane, plant::HeldOf<Lanes>& all) {
 
 std::optional<Kind> kind_of(std::span<const plant::Plant* const> group) {
   std::vector<plant::Rig> rigs, opposite;
+  std::vector<Leaves> levers;
   for (const plant::Plant* plant : group) {
     rigs.push_back(plant->rig());
     if (plant->opposite()) opposite.push_back(plant->opposite()->rig());
+    Leaves& lever = levers.emplace_back();
+    lever.choices.emplace_back(plant->lever().has_value());
+    if (!plant->lever()) continue;
+    plant::Lever turned = *plant->lever();
+    walk(turned, lever);
   }
   auto kind = common_choices(levelled_leaves(rigs));
+  const bool alike =
+      std::ranges::all_of(levers, [&](const Leaves& one) { return one.choices == levers.front().choices; });
+  if (!alike) return std::nullopt;
+  if (kind && levers.front().choices.front() != 0L)
+    kind->insert(kind->end(), levers.front().choices.begin(), levers.front().choices.end());
   if (!kind || opposite.empty()) return kind;
   const auto other = common_choices(levelled_leaves(opposite));
   if (!other) return std::nullopt;

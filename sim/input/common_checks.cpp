@@ -42,7 +42,10 @@ void check_lifts_a_load(const YamlFile& file, const plant::Rig& rig, Problems& p
 }
 
 void require_load(const plant::Rig& rig, const std::string& file, std::string_view verb) {
-  if (const std::string why = no_load(rig); !why.empty())
+  std::string why = no_load(rig);
+  if (why.empty() && rig.lever() != nullptr)
+    why = "the rig's muscle turns a lever, and this verb needs a load's height; see docs/lever.md";
+  if (!why.empty())
     throw BadInput(
         {{Severity::error, file, nowhere, fmt::format("{} cannot take it yet: {}", verb, why), ""}});
 }

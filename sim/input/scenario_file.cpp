@@ -14,6 +14,7 @@
 #include <sim/input/current_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
+#include <sim/input/lever_checks.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -197,6 +198,8 @@ class ScenarioChecker {
         guest->folder = source_.folder().string();
       if (const auto* plugin = std::get_if<controllers::PluginSettings>(&scenario_.controllers[i]))
         look_for_library(plugin->library, *node.find("library"));
+      if (scenario_.rig.lever() != nullptr)
+        check_lever_controller(scenario_.controllers[i], source_, node.place, problems_);
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
       if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())
@@ -294,6 +297,9 @@ class ScenarioChecker {
 
   void check_outer_forces() {
     const auto& forces = scenario_.outer_forces;
+    if (!forces.empty() && scenario_.rig.lever() != nullptr)
+      return problems_.error(source_, list("joint_force").place,
+                             "joint_force: forces on a cord are of a hanging load, the rig turns a lever");
     const plant::Rig& rig = scenario_.rig;
     for (std::size_t i = 0; i < forces.size(); ++i) {
       const auto wrong = [&](const std::string& message) {
@@ -319,6 +325,8 @@ class ScenarioChecker {
   }
 
   void check_target() {
+    if (scenario_.rig.lever() != nullptr)
+      return check_lever_target(scenario_, source_, list("target").place, problems_);
     const auto [lowest, highest] =
         controllers::range(scenario_.target, scenario_.duration_s, scenario_.rig.muscle.rest_length_m);
     const double largest = plant::Braid(scenario_.rig.muscle).largest_contraction_ratio();

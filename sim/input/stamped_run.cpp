@@ -40,7 +40,7 @@ bool drives(const Quantity& quantity, const ColumnMap& map, const plant::Rig& ri
 }  // namespace
 
 bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
-  if (!rig.lifts_a_load() || rig.valve.seals() || !map.settled.absent()) return true;
+  if (!rig.lifts_a_load() || rig.has_angle() || rig.valve.seals() || !map.settled.absent()) return true;
   return std::ranges::any_of(domain::quantities(), [&](const Quantity& quantity) {
     const ColumnPlace& place = map[quantity];
     constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
@@ -55,7 +55,7 @@ std::vector<Wish> stamped_quantities(const ColumnMap& map, const plant::Rig& rig
   std::vector<Wish> wishes;
   for (const Quantity& quantity : domain::quantities(rig.command_unit())) {
     const ColumnPlace& place = map[quantity];
-    if (!quantity.belongs(pair) || (!place.absent() && place.as == Role::ignored)) continue;
+    if (!quantity.belongs(rig) || (!place.absent() && place.as == Role::ignored)) continue;
     if (place.absent() && quantity.channel.signal->must_be_named) continue;
     const bool needed = drives(quantity, map, rig), of_one = quantity.is_command() && !pair;
     const bool under_the_other_name =
@@ -68,7 +68,7 @@ std::vector<Wish> stamped_quantities(const ColumnMap& map, const plant::Rig& rig
 std::vector<domain::Contradiction> wrong_command_units(const ColumnMap& map, const plant::Rig& rig) {
   std::vector<domain::Contradiction> found;
   for (const Quantity& quantity : domain::quantities()) {
-    if (!quantity.is_command() || !quantity.belongs(rig.pair() != nullptr) || !map.gives(quantity)) continue;
+    if (!quantity.is_command() || !quantity.belongs(rig) || !map.gives(quantity)) continue;
     const std::string why = unit_of_command_problem(
         map[quantity], quantity.channel.muscle == 2 ? rig.pair()->opposite.valve : rig.valve);
     if (!why.empty()) found.push_back({quantity.key, why});
@@ -95,7 +95,7 @@ class Assembling {
     std::stable_partition(measured_.columns.begin(), measured_.columns.end(),
                           [](const auto& column) { return !column.is_pressure(); });
     measured_.angle_in_degrees = map_["angle"].unit == "deg";
-    measured_.counted = map_[rig_.pair() != nullptr ? "angle" : "contraction"].unit == "count";
+    measured_.counted = map_[rig_.has_angle() ? "angle" : "contraction"].unit == "count";
     beginning();
     return std::move(measured_);
   }

@@ -164,8 +164,10 @@ std::string Host::obey(const Command& command) {
           },
           [&](const Record& record) -> std::string {
             if (recording_) return "a recording is under way";
-            if (session_.pair() && !record.from_rest && !session_.untouched())
-              return "of two muscles a recording begins from rest: their data sets cannot say otherwise";
+            if (session_.rig().has_angle() && !record.from_rest && !session_.untouched())
+              return session_.pair()
+                         ? "of two muscles a recording begins from rest: their data sets cannot say otherwise"
+                         : "of a lever a recording begins from rest: its data set cannot say otherwise";
             if (record.from_rest) session_.start_over();
             if (!session_.failure().empty()) return "nothing moves: the integration failed";
             recording_.emplace();

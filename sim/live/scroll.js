@@ -57,7 +57,8 @@ const samples = {
   },
 };
 
-const read = pair ? 'encoder_angle' : 'encoder_contraction_ratio';
+const turns = unitOf.encoder_angle !== undefined;  // a lever's angle is read, or that of two muscles
+const read = turns ? 'encoder_angle' : 'encoder_contraction_ratio';
 const pairTimePlots = [
   {title: 'Joint angle', lines: [['angle', 'true'], [read, 'as counted']]},
   {
@@ -74,7 +75,8 @@ const pairTimePlots = [
   {title: 'Forces of the cords', lines: [['tension_1', 'cord 1'], ['tension_2', 'cord 2']]},
 ];
 const singleTimePlots = [
-  {title: 'Contraction', lines: [['contraction_ratio', 'true'], [read, 'as counted']]},
+  turns ? pairTimePlots[0] :
+          {title: 'Contraction', lines: [['contraction_ratio', 'true'], [read, 'as counted']]},
   {
     title: 'Pressures',
     lines: [['muscle_pressure', 'muscle'], ['reference_pressure', 'commanded'], ['valve_pressure', 'valve']]
@@ -98,7 +100,11 @@ const pairLoopPlots = [
   {title: 'Angle and difference of forces', x: 'angle', y: 'tension_1 - tension_2'},
 ];
 const singleLoopPlots = [
-  {title: 'Commanded pressure, and counted contraction', x: 'reference_pressure', y: read},
+  {
+    title: `Commanded pressure, and counted ${turns ? 'angle' : 'contraction'}`,
+    x: 'reference_pressure',
+    y: read
+  },
   {title: 'Contraction and pressure of the muscle', x: 'contraction_ratio', y: 'muscle_pressure'},
   {title: 'Contraction and force of the braid', x: 'contraction_ratio', y: 'braid_force'},
 ];

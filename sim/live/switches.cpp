@@ -42,9 +42,9 @@ std::vector<diagnose::Candidate> by_side(const diagnose::Candidate& candidate, c
   return {one, two};
 }
 
-/// Whether a pair may have it: one has no guide of a load, and both gases are of one kind.
+/// Whether a pair or a lever may have it: they have no guide of a load, and both gases are of one kind.
 bool is_of(const plant::Rig& rig, const diagnose::Candidate& candidate) {
-  if (rig.pair() == nullptr) return true;
+  if (!rig.has_angle()) return true;
   plant::Rig with = candidate.chosen(rig);
   candidate.put(with, candidate.absent + candidate.typical);
   return domain::broken_rule(with).empty();

@@ -192,7 +192,7 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
   };
   if (run.failure.empty()) {
     const plant::Rig& rig = campaign_.rig;
-    if (rig.pair() == nullptr) write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
+    if (!rig.has_angle()) write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
     auto [measured_columns, true_columns] = tables_of(run.recording, rig);
     const auto measured = table_of(run, "measured", std::move(measured_columns));
     const auto truth = table_of(run, "truth", std::move(true_columns));

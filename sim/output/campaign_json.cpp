@@ -54,7 +54,7 @@ Json entry_json(const domain::Campaign& campaign, const run::EndedRun& run) {
   }
   entry["file"] = run.job.id + ".csv";
   entry["rows"] = run.rows;
-  if (pair)
+  if (campaign.rig.has_angle())
     entry["angle_rad"] = span_json(run.angle_rad);
   else
     entry["largest_contraction_ratio"] = run.largest_contraction_ratio;
@@ -78,7 +78,12 @@ run::EndedRun ended_run(const run::CampaignJob& job, const Json& entry) {
 }
 
 Json columns_json(const plant::Rig& rig) {
-  if (rig.pair() != nullptr) return {{"angle", counted_json("angle_rad", data::reading_per_count(rig))}};
+  if (rig.has_angle()) {
+    Json columns{{"angle", counted_json("angle_rad", data::reading_per_count(rig))}};
+    if (rig.sensors.of(plant::Sensed::force) != nullptr)
+      columns["force"] = {{"column", "force_N"}, {"unit", "N"}};
+    return columns;
+  }
   if (rig.sensors.of(plant::Sensed::force) == nullptr) return Json::object();
   return {{"contraction", counted_json("contraction_ratio", run::contraction_per_count(rig))},
           {"force", {{"column", "force_N"}, {"unit", "N"}}}};

@@ -92,7 +92,8 @@ std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison
   const auto tasks = run::tasks_of(scenario);
   const plant::Driven driven{.pair = scenario.rig.pair() != nullptr};
   const auto channels = plant::channels_of(scenario.rig, driven);
-  const plant::Channel& followed = plant::channel_of(channels, driven.pair ? "angle" : "contraction_ratio");
+  const plant::Channel& followed =
+      plant::channel_of(channels, scenario.rig.has_angle() ? "angle" : "contraction_ratio");
   const double page_size = followed.signal->unit.page_size, tick_s = scenario.rig.tick_s;
   const Legend legend = make_legend(scenario);
   const double first_px = legend.bottom_px + 30.0;
@@ -114,7 +115,7 @@ std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison
                                  values.high, static_cast<double>(ticks) * tick_s);
     svg += axes(panel, fmt::format("{}{}{} kg: {}", target.name, target.name.empty() ? "" : ", ",
                                    domain::write_number(tasks[r].load_kg),
-                                   driven.pair ? "joint angle [deg]" : "contraction ratio"));
+                                   scenario.rig.has_angle() ? "joint angle [deg]" : "contraction ratio"));
     svg += line(panel, ticks, tick_s, "#000000", "none", 2.2,
                 [&](std::size_t k) { return target.values[k] / page_size; });
     for (std::size_t c = 0; c < scenario.controllers.size(); ++c) {

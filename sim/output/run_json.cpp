@@ -54,8 +54,8 @@ void put_joint(Json& entry, const run::TrackedRun& run) {
 }
 
 /// Errors of a joint are in rad, and their keys say so.
-void put_metrics(Json& entry, const run::Metrics& m, bool of_joint, plant::CommandUnit commands) {
-  const std::string unit = of_joint ? "_rad" : "";
+void put_metrics(Json& entry, const run::Metrics& m, const plant::Rig& rig, plant::CommandUnit commands) {
+  const std::string unit = rig.has_angle() ? "_rad" : "";
   entry["rmse" + unit] = m.rmse;
   entry["mae" + unit] = m.mae;
   entry["largest_error" + unit] = m.largest_error;
@@ -64,7 +64,7 @@ void put_metrics(Json& entry, const run::Metrics& m, bool of_joint, plant::Comma
   entry["overshoot"] = or_null(m.overshoot);
   entry["settling_time_s"] = or_null(m.settling_time_s);
   entry[in_unit(commands, "current_travel_mA")] = m.current_travel_mA;
-  if (of_joint) return;
+  if (rig.pair() != nullptr) return;
   entry[in_unit(commands, "at_lowest_current")] = or_null(m.at_lowest_current);
   entry[in_unit(commands, "at_highest_current")] = or_null(m.at_highest_current);
 }
@@ -88,7 +88,7 @@ Json run_json(const domain::Scenario& scenario, const run::Comparison& compariso
   if (run.followed())
     entry["skip_s"] =
         run::tidy_s(static_cast<double>(comparison.targets[run.target].first) * scenario.rig.tick_s);
-  if (run.followed()) put_metrics(entry, run.metrics, pair, scenario.rig.command_unit());
+  if (run.followed()) put_metrics(entry, run.metrics, scenario.rig, scenario.rig.command_unit());
   if (run.joint) put_joint(entry, run);
   entry["contraction"] = contraction_json(scenario.rig, run.recording);
   entry["ledger"] = ledger_json(scenario.rig, run.recording);
@@ -148,11 +148,12 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
   for (const auto& row : comparison.spreads) {
     Json entry{{"controller", row.controller}};
     if (row.rmse)
-      entry[pair ? "rmse_rad" : "rmse"] = {{"mean", row.rmse->mean},
-                                           {"lowest", row.rmse->lowest},
-                                           {"highest", row.rmse->highest},
-                                           {"spread", row.rmse->width()},
-                                           {"standard_deviation", row.rmse->standard_deviation}};
+      entry[scenario.rig.has_angle() ? "rmse_rad" : "rmse"] = {
+          {"mean", row.rmse->mean},
+          {"lowest", row.rmse->lowest},
+          {"highest", row.rmse->highest},
+          {"spread", row.rmse->width()},
+          {"standard_deviation", row.rmse->standard_deviation}};
     document["spreads"].push_back(std::move(entry));
   }
   document["criteria_not_met"] = comparison.unmet;

@@ -63,6 +63,10 @@ std::string degrees(double angle_rad) {
   return rounded(angle_rad / plant::degree_rad, 2, true);
 }
 
+std::string error_in_degrees(double error_rad) {
+  return fmt::format("{:.2f}", error_rad / plant::degree_rad);
+}
+
 std::string tuned_line(const plant::Rig& rig, const run::TunedController& row) {
   const auto cost = [](std::optional<double> value) {
     return value ? fmt::format("{:.3g}", *value) : std::string("no result");
@@ -128,20 +132,33 @@ namespace {
 /// Errors as contraction ratios and lengths, a line for each load under each controller.
 std::string lines_of_one(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const double length_mm = 1e3 * scenario.rig.muscle.rest_length_m;
-  Grid grid({"load_kg", "controller", "rmse", "rmse_mm", "mae", "largest", "final", "lag_ms", "overshoot_%",
-             "settling_s", "air_g", "at_limit_%"},
-            2);
+  const bool angle = scenario.rig.has_angle();
+  std::vector<std::string> heads{"load_kg",    "controller", angle ? "rmse_deg" : "rmse",
+                                 "rmse_mm",    "mae",        "largest",
+                                 "final",      "lag_ms",     "overshoot_%",
+                                 "settling_s", "air_g",      "at_limit_%"};
+  if (angle) std::erase(heads, "rmse_mm");
+  Grid grid(heads, 2);
   for (const auto& run : comparison.runs) {
     const auto& m = run.metrics;
     const std::vector<std::string> head{domain::write_number(run.load_kg),
                                         run.controller + extrapolation_mark(run)};
-    if (!run.failure.empty())
+    if (!run.failure.empty()) {
       grid.add(head, "no result");
-    else
-      grid.add(head, {ratio(m.rmse), cell(m.rmse, length_mm, 2), ratio(m.mae), ratio(m.largest_error),
-                      fmt::format("{:+.5f}", m.final_error), cell(m.time_lag_s, 1e3, 0),
-                      cell(m.overshoot, 100.0, 1), cell(m.settling_time_s, 1.0, 2), cell(m.air_kg, 1e3, 3),
-                      percent(run.limits ? std::optional(run::share_at_limit(run)) : std::nullopt)});
+      continue;
+    }
+    std::vector<std::string> cells =
+        angle ? std::vector{error_in_degrees(m.rmse), error_in_degrees(m.mae),
+                            error_in_degrees(m.largest_error),
+                            fmt::format("{:+.2f}", m.final_error / plant::degree_rad)}
+              : std::vector{ratio(m.rmse), cell(m.rmse, length_mm, 2), ratio(m.mae), ratio(m.largest_error),
+                            fmt::format("{:+.5f}", m.final_error)};
+    for (std::string& more :
+         std::vector{cell(m.time_lag_s, 1e3, 0), cell(m.overshoot, 100.0, 1), cell(m.settling_time_s, 1.0, 2),
+                     cell(m.air_kg, 1e3, 3),
+                     percent(run.limits ? std::optional(run::share_at_limit(run)) : std::nullopt)})
+      cells.push_back(std::move(more));
+    grid.add(head, cells);
   }
   return grid.text() + footnotes(comparison.runs);
 }
@@ -153,9 +170,17 @@ std::string spreads(const domain::Scenario& scenario, const run::Comparison& com
       return run.controller == controller && run.failure.empty() && extrapolation_mark(run) == "*";
     });
   };
-  Grid grid({"controller", "rmse mean", "mean_mm", "lowest", "highest", "spread", "std dev"}, 1);
+  const bool angle = scenario.rig.has_angle();
+  std::vector<std::string> heads{"controller", "rmse mean", "mean_mm", "lowest",
+                                 "highest",    "spread",    "std dev"};
+  if (angle) heads = {"controller", "rmse_deg mean", "lowest", "highest", "spread", "std dev"};
+  Grid grid(heads, 1);
   for (const auto& row : comparison.spreads)
-    if (row.rmse)
+    if (row.rmse && angle)
+      grid.add({row.controller, error_in_degrees(row.rmse->mean), error_in_degrees(row.rmse->lowest),
+                error_in_degrees(row.rmse->highest), error_in_degrees(row.rmse->width()),
+                error_in_degrees(row.rmse->standard_deviation)});
+    else if (row.rmse)
       grid.add({row.controller + (extrapolated(row.controller) ? "*" : ""), ratio(row.rmse->mean),
                 cell(row.rmse->mean, 1e3 * scenario.rig.muscle.rest_length_m, 2), ratio(row.rmse->lowest),
                 ratio(row.rmse->highest), ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
@@ -218,10 +243,13 @@ std::string heading(const domain::Scenario& scenario, const run::Comparison& com
                        scenario.name, plural(comparison.runs.size(), "run"), scenario.duration_s,
                        counted.empty() ? "" : "; errors count", counted);
   }
-  return fmt::format("{}: {} x {}, {:g} s each; errors are contraction ratios (0.001 = {:g} mm){}\n",
-                     scenario.name, plural(scenario.loads_kg.size(), "load"),
-                     plural(scenario.controllers.size(), "controller"), scenario.duration_s,
-                     scenario.rig.muscle.rest_length_m, counted);
+  return fmt::format(
+      "{}: {} x {}, {:g} s each; errors are {}{}\n", scenario.name, plural(scenario.loads_kg.size(), "load"),
+      plural(scenario.controllers.size(), "controller"), scenario.duration_s,
+      scenario.rig.has_angle()
+          ? "joint angles"
+          : fmt::format("contraction ratios (0.001 = {:g} mm)", scenario.rig.muscle.rest_length_m),
+      counted);
 }
 
 std::string lines(const std::vector<std::string>& texts) {
@@ -300,7 +328,9 @@ std::string table_of_pair(const domain::Campaign& campaign, const std::vector<To
 
 /// Of one muscle, load by load.
 std::string table_of_loads(const domain::Campaign& campaign, const std::vector<Together>& loads) {
-  Grid grid({"load_kg", "runs", "rows", "simulated_s", "largest_contraction", "steps", "right_hand_sides"},
+  const bool angle = campaign.rig.has_angle();
+  Grid grid({"load_kg", "runs", "rows", "simulated_s", angle ? "angle_deg highest" : "largest_contraction",
+             "steps", "right_hand_sides"},
             0);
   std::string notes;
   for (std::size_t i = 0; i < loads.size(); ++i) {
@@ -308,8 +338,9 @@ std::string table_of_loads(const domain::Campaign& campaign, const std::vector<T
     const std::string load = fmt::format("{:g}", campaign.loads_kg[i]);
     grid.add({load, std::to_string(all.runs), std::to_string(all.rows),
               fmt::format("{:.1f}", static_cast<double>(all.rows) * campaign.rig.tick_s),
-              fmt::format("{:.4f}", all.largest_contraction_ratio), std::to_string(all.steps),
-              std::to_string(all.right_hand_sides)});
+              angle ? fmt::format("{:+.2f}", all.angle_rad.value_or(run::Span{}).high / plant::degree_rad)
+                    : fmt::format("{:.4f}", all.largest_contraction_ratio),
+              std::to_string(all.steps), std::to_string(all.right_hand_sides)});
     notes += contraction_note(campaign.rig, all.largest_contraction_ratio, load + " kg");
   }
   return grid.text() + section("contraction, as counted", notes);

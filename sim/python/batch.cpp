@@ -50,6 +50,8 @@ class Batch {
         throw py::value_error("rigs of a batch are commanded in the same unit");
       if (file.pair() != nullptr) throw py::value_error("rigs of a batch have one muscle each");
       if (file.valve.seals()) throw py::value_error("rigs of a batch are commanded, no sealed muscle is");
+      if (file.lever() != nullptr)
+        throw py::value_error("a batch counts heights of loads, not the angle of a lever");
       const double load_kg = loads_kg.data()[loads == 1 ? 0 : i];
       if (!file.can_hang(load_kg) || !(load_kg <= 500.0))
         throw py::value_error("loads_kg: masses of 0 to 500 kg, and something that moves");

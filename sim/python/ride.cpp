@@ -151,13 +151,13 @@ engine::Linear Ride::linearise() const {
 
 Shown Ride::shown() const {
   const double rise_m = static_cast<double>(counts_) * plant::count_height_m(*rig_);
-  const bool pair = this->pair();
+  const bool pair = this->pair(), angle = rig_->has_angle();
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const ride::Reading& reading = ride_.reading();
   const plant::Sensor* const gauge = rig_->sensors.of(plant::Sensed::muscle_pressure);
   return {ride_.time_s(),
-          pair ? none : rise_m / rig_->muscle.rest_length_m,
-          pair ? rise_m / rig_->joint.wheel_radius_m : none,
+          angle ? none : rise_m / rig_->muscle.rest_length_m,
+          angle ? rise_m / rig_->joint.wheel_radius_m : none,
           plant::shown(gauge, reading.muscle_pressure_Pa),
           pair ? plant::shown(gauge, reading.opposite_pressure_Pa) : none,
           counts_};

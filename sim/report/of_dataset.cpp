@@ -65,6 +65,24 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::R
   return run;
 }
 
+/// Of a lever: what was measured, and the contraction that its angle means.
+Run shown_of_lever(const domain::Run& measured, std::size_t style, const plant::Plant& plant) {
+  Run run{.name = measured.id, .style = style, .ticks = measured.angle_rad.size()};
+  const auto* command = &measured.measured->given("command");
+  run.quantities = {{"angle", [&measured](std::size_t k) { return in_degrees * measured.angle_rad[k]; }},
+                    {"contraction_ratio",
+                     [&measured, plant](std::size_t k) { return plant.ratio_at_rad(measured.angle_rad[k]); }},
+                    {plant::command_key(plant.rig()), [command](std::size_t k) { return (*command)[k]; }},
+                    {"reference_pressure", [command, plant](std::size_t k) {
+                       return plant.reference_pressure_Pa((*command)[k]) / plant::Pa_per_bar;
+                     }}};
+  if (measured.muscle_pressure_Pa)
+    run.quantities.push_back({"muscle_pressure", [&measured](std::size_t k) {
+                                return (*measured.muscle_pressure_Pa)[k] / plant::Pa_per_bar;
+                              }});
+  return run;
+}
+
 /// What runs that belong together come to, and how far: a contraction ratio, or angles of a pair.
 struct Counted {
   std::size_t runs = 0, rows = 0;
@@ -81,7 +99,7 @@ struct Counted {
 void add_parts(Contents& contents, const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended,
                const domain::Dataset& dataset) {
   const plant::Rig& rig = dataset.rig;
-  const bool pair = rig.pair() != nullptr;
+  const bool pair = rig.pair() != nullptr, angle = rig.has_angle();
   const auto seconds = [&](const Counted& of) { return static_cast<double>(of.rows) * rig.tick_s; };
   std::string rows;
   Counted all;
@@ -94,11 +112,12 @@ void add_parts(Contents& contents, const domain::Campaign& campaign, const std::
     for (const run::EndedRun& run : ended) {
       if (!run.failure.empty() || (pair ? run.job.current != i : run.job.load_kg != load_kg)) continue;
       const domain::Run& measured = *std::ranges::find(dataset.runs, run.job.id, &domain::Run::id);
-      group.runs.push_back(pair ? shown_of_pair(measured, part.runs, rig)
-                                : shown(measured, part.runs, plant::Plant(rig, load_kg)));
+      group.runs.push_back(pair    ? shown_of_pair(measured, part.runs, rig)
+                           : angle ? shown_of_lever(measured, part.runs, plant::plant_of(rig, load_kg))
+                                   : shown(measured, part.runs, plant::Plant(rig, load_kg)));
       group.ticks = std::max(group.ticks, group.runs.back().ticks);
       part.add({1, group.runs.back().ticks,
-                pair ? run.angle_rad : run::Span{0.0, std::ranges::max(measured.contraction_ratio)}});
+                angle ? run.angle_rad : run::Span{0.0, std::ranges::max(measured.contraction_ratio)}});
     }
     const bool any = !group.runs.empty();
     const std::size_t place = contents.groups.size();
@@ -106,8 +125,8 @@ void add_parts(Contents& contents, const domain::Campaign& campaign, const std::
         "<tr{}><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{:.1f}</td><td>{}</td></tr>\n",
         any ? fmt::format(" data-group='{}'", place) : "",
         any ? link_html(place, group.name) : output::escaped(group.name), part.runs, part.rows, seconds(part),
-        pair ? fmt::format("{:+.1f} to {:+.1f}", in_degrees * part.span.low, in_degrees * part.span.high)
-             : length_html(part.span.high, rig, 2));
+        angle ? fmt::format("{:+.1f} to {:+.1f}", in_degrees * part.span.low, in_degrees * part.span.high)
+              : length_html(part.span.high, rig, 2));
     if (any) contents.groups.push_back(std::move(group));
     all.add(part);
   }
@@ -121,15 +140,17 @@ void add_parts(Contents& contents, const domain::Campaign& campaign, const std::
                  "{:.1f}° and {:.1f}°.",
                  plural(all.runs, "run"), plural(parts, "pair"), minutes, in_degrees * all.span.low,
                  in_degrees * all.span.high)
-           : fmt::format("{} with {} and {}, {:.1f} minutes in all; the muscle shortens by up to {}.",
+           : fmt::format("{} with {} and {}, {:.1f} minutes in all; the {} by up to {}.",
                          plural(all.runs, "run"), plural(parts, "load"),
                          plural(campaign.currents.size(), "current"), minutes,
-                         full_length_html(all.span.high, rig, 1));
+                         angle ? "lever turns" : "muscle shortens",
+                         angle ? fmt::format("{:.1f}°", in_degrees * all.span.high)
+                               : full_length_html(all.span.high, rig, 1));
   contents.table = fmt::format(
       "<table><caption>What was measured</caption>\n<thead><tr><th scope='col'>{}</th><th "
       "scope='col'>runs</th><th scope='col'>rows</th><th scope='col'>seconds</th><th "
       "scope='col'>{}</th></tr></thead>\n<tbody>\n{}</tbody></table>\n",
-      pair ? "currents" : "load", pair ? "joint angle, deg" : "largest contraction, " + length_unit_html(),
+      pair ? "currents" : "load", angle ? "joint angle, deg" : "largest contraction, " + length_unit_html(),
       rows);
 }
 
@@ -145,7 +166,7 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
                     .beside =
                         "Every number of every tick is in the CSV files of this folder; input, versions and "
                         "hashes are in campaign.json, the truth in a folder of its own.",
-                    .lengths = !pair,
+                    .lengths = !dataset.rig.has_angle(),
                     .rig = dataset.rig,
                     .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
                     .plots = measured_plots(dataset.rig, pair),

@@ -120,7 +120,8 @@ void add_given(Group& group, const domain::Run& recorded, const plant::Rig& rig)
 Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
                const ReplayedRun* nominal, const ReplayedRun* corrected) {
   const diagnose::Judged judged = data.judged();
-  const bool hangs = judged == diagnose::Judged::contraction, pair = data.rig.pair() != nullptr;
+  const bool hangs = judged == diagnose::Judged::contraction || data.rig.lever() != nullptr,
+             pair = data.rig.pair() != nullptr;
   const output::JudgedWords& of = output::words_of(judged);
   const bool changed = output::changed(diagnosis);
   Group group{.name = fmt::format("{}{}{}", gap.id, hangs ? ", " + output::mass(gap.load_kg) : "",
@@ -170,22 +171,23 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
   const double floor = diagnosis.gap.noise_floor / of.size;
   const std::string error = "Error: measured less model";
   const auto cell = [](const domain::Run& run) { return run.beside(domain::Beside::force) != nullptr; };
-  auto all = plots_of(
-      diagnosis.corrected,
-      {.driven = {.pair = pair, .length = bench},
-       .key = of.signal,
-       .title = fmt::format("{}, measured and by each rig", judged == diagnose::Judged::pressure ? "Pressure"
-                                                            : bench                              ? "Force"
-                                                            : pair ? "Joint angle"
-                                                                   : "Contraction"),
-       .given = "Measured",
-       .error = !height ? error
-                        : fmt::format("{}, as height of the load{}", error,
-                                      floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
-       .commands = !data.pressure_is_given(),
-       .pressure = gauged(data),
-       .force = !bench && std::ranges::any_of(data.runs, cell),
-       .off = "measured less model"});
+  auto all =
+      plots_of(diagnosis.corrected,
+               {.driven = {.pair = pair, .length = bench},
+                .key = of.signal,
+                .title = fmt::format("{}, measured and by each rig",
+                                     judged == diagnose::Judged::pressure ? "Pressure"
+                                     : bench                              ? "Force"
+                                     : judged == diagnose::Judged::angle  ? "Joint angle"
+                                                                          : "Contraction"),
+                .given = "Measured",
+                .error = !height ? error
+                                 : fmt::format("{}, as height of the load{}", error,
+                                               floor > 0.0 ? "; logarithmic beyond the noise floor" : ""),
+                .commands = !data.pressure_is_given(),
+                .pressure = gauged(data),
+                .force = !bench && std::ranges::any_of(data.runs, cell),
+                .off = "measured less model"});
   for (Plot& plot : all) {
     if (plot.id == "error" && !bench) plot.still = true, plot.floor = floor;
     for (Line& line : plot.lines)  // one for all rigs
@@ -197,6 +199,10 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
 
 std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
   if (data.rig.pair() != nullptr) return loops_of({.pair = true});
+  if (data.rig.lever() != nullptr)
+    return {{"asked", "Joint angle and commanded pressure", "reference_pressure", "angle",
+             "commanded pressure in bar", "joint angle in deg", false, "reference_pressure", "given_angle"},
+            loops_of({}).front()};
   if (data.judged() == diagnose::Judged::pressure)
     return {{"asked", "Pressure and commanded pressure", "reference_pressure", "muscle_pressure",
              "commanded pressure in bar", "pressure in bar", false, "reference_pressure",
@@ -239,13 +245,13 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
       .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
       .short_on_paper = true,
-      .lengths = !pair,
+      .lengths = !data.rig.has_angle(),
       .rig = diagnosis.corrected,
       .gauge = gauged(data) && !pair,
       .plots = plots(data, diagnosis),
       .loops = loops_of_runs(data),
       .drawn = output::changed(diagnosis) ? 2u : 0u};  // the corrected
-  if (!pair) contents.rig.mechanics = plant::HangingLoad{};
+  if (!data.rig.has_angle()) contents.rig.mechanics = plant::HangingLoad{};
   const RunGap* telling = telling_run(diagnosis);
   for (const RunGap* run : runs) {
     auto group = group_of(data, diagnosis, *run, by_id(nominal, run->id), by_id(corrected, run->id));

@@ -113,7 +113,7 @@ Contents contents_of(const plant::Rig& rig, const run::Driven& driven) {
   Contents contents;
   contents.rig = rig;
   if (driven.length) contents.rig.mechanics = plant::HeldLength{};
-  contents.lengths = !driven.pair;
+  contents.lengths = !rig.has_angle();
   contents.beside = std::string(beside_runs);
   contents.loops = loops_of(driven);
   return contents;
@@ -141,11 +141,11 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::R
   contents.gauge = measured("muscle_pressure") || driven.pressure[0] == plant::GivenPressure::muscle;
   contents.details = output::table_of(dataset, runs, warnings);
   constexpr auto none = plant::GivenPressure::none;
-  const bool position = measured(driven.pair ? "angle" : "contraction");
-  const std::string title = driven.pair ? "Joint angle" : "Contraction";
+  const bool angle = dataset.rig.has_angle(), position = measured(angle ? "angle" : "contraction");
+  const std::string title = angle ? "Joint angle" : "Contraction";
   contents.plots = plots_of(
       dataset.rig, {.driven = driven,
-                    .key = driven.pair ? "angle" : "contraction_ratio",
+                    .key = angle ? "angle" : "contraction_ratio",
                     .title = title,
                     .given = position ? "measured" : "",
                     .error = position ? title + ": simulated less measured" : "",

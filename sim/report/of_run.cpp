@@ -27,6 +27,9 @@ using run::Comparison, run::tasks_of;
 bool of_pair(const Scenario& scenario) {
   return scenario.rig.pair() != nullptr;
 }
+bool of_angle(const Scenario& scenario) {
+  return scenario.rig.has_angle();
+}
 
 /// What a controller's mean is over.
 std::string over_what(const Scenario& scenario) {
@@ -36,11 +39,11 @@ std::string over_what(const Scenario& scenario) {
 
 /// An error in a sentence: of the height of a load, or of the angle of a joint.
 std::string full_error_html(double error, const Scenario& scenario) {
-  return of_pair(scenario) ? fmt::format("{:.2f}°", in_degrees * error)
-                           : full_length_html(error, scenario.rig, 2);
+  return of_angle(scenario) ? fmt::format("{:.2f}°", in_degrees * error)
+                            : full_length_html(error, scenario.rig, 2);
 }
 std::string error_html(double error, const Scenario& scenario) {
-  return of_pair(scenario) ? fmt::format("{:.2f}", in_degrees * error) : length_html(error, scenario.rig);
+  return of_angle(scenario) ? fmt::format("{:.2f}", in_degrees * error) : length_html(error, scenario.rig);
 }
 
 std::string sentence_of_currents(const run::TrackedRun& run) {
@@ -66,7 +69,7 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   if (best == nullptr) return (scenario.controllers.empty() ? "" : "No run came to its end.") + given;
   const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
                                     [](const auto& run) { return !run.failure.empty(); });
-  const char* of_what = of_pair(scenario) ? "root mean square error of the angle" : "root mean square error";
+  const char* of_what = of_angle(scenario) ? "root mean square error of the angle" : "root mean square error";
   const std::string over = failed == 0         ? over_what(scenario)
                            : of_pair(scenario) ? "the runs with a result"
                                                : "the loads with a result";
@@ -125,7 +128,7 @@ std::string table(const Scenario& scenario, const Comparison& comparison) {
   if (columns == 0) return "";
   std::string html = fmt::format(
       "<table><caption>Root mean square error{}{}{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
-      of_pair(scenario) ? " of the joint angle, deg" : ", " + length_unit_html(),
+      of_angle(scenario) ? " of the joint angle, deg" : ", " + length_unit_html(),
       run::counted_words(scenario, comparison), columns > 1 ? "; the smallest of each row is bold" : "",
       heads(scenario));
   bool marked = false;
@@ -208,23 +211,25 @@ Run shown(const Scenario& scenario, const run::TrackedRun& run, const std::strin
 Group group_of(const Scenario& scenario, const Comparison& comparison, const run::Task& task) {
   const run::Wanted& wanted = comparison.targets[task.target];
   const auto* target = &wanted.values;
-  const bool pair = of_pair(scenario);
+  const bool pair = of_pair(scenario), angle = of_angle(scenario);
   Group group{.name = name_of(scenario, task), .load_kg = task.load_kg, .ticks = target->size()};
-  if (pair) {
+  if (angle) {
     group.given.push_back({"given_angle", [target](std::size_t k) { return in_degrees * (*target)[k]; }});
     if (const auto* stiffness = &wanted.stiffness_N_m_per_rad; !stiffness->empty())
       group.given.push_back({"given_stiffness", [stiffness](std::size_t k) { return (*stiffness)[k]; }});
   } else {
+    group.given.push_back({"given_contraction_ratio", [target](std::size_t k) { return (*target)[k]; }});
+  }
+  if (!pair) {
     const double weight_N = plant::Plant(scenario.rig, task.load_kg).weight_N();
-    group.given = {{"given_contraction_ratio", [target](std::size_t k) { return (*target)[k]; }},
-                   {"weight", [weight_N](std::size_t) { return weight_N; }}};
+    group.given.push_back({"weight", [weight_N](std::size_t) { return weight_N; }});
   }
   const auto runs = runs_of(scenario, comparison, task);
   for (std::size_t c = 0; c < runs.size(); ++c) {
     const auto* rows = &runs[c].recording.samples;
     if (rows->empty()) continue;
     Run run = shown(scenario, runs[c], runs[c].controller, c);
-    if (pair)
+    if (angle)
       run.quantities.push_back({"error", [rows, target](std::size_t k) {
                                   return in_degrees * ((*rows)[k].angle_rad - (*target)[k]);
                                 }});
@@ -238,6 +243,9 @@ Group group_of(const Scenario& scenario, const Comparison& comparison, const run
 }
 
 PlotsOf plots_for(const Scenario& scenario) {
+  if (scenario.rig.lever() != nullptr)
+    return {
+        .key = "angle", .title = "Joint angle", .given = "target", .error = "Joint angle: angle less target"};
   if (!of_pair(scenario))
     return {.title = "Target and contraction", .given = "Target", .error = "Error: contraction less target"};
   const bool targets = !scenario.targets.empty();
@@ -264,7 +272,7 @@ std::string report_html(const Scenario& scenario, const Comparison& comparison) 
                     .details = output::table_of(scenario, comparison),
                     .beside = std::string(beside_runs),
                     .chapters = {robustness(scenario, comparison)},
-                    .lengths = !pair,
+                    .lengths = !of_angle(scenario),
                     .rig = scenario.rig,
                     .gauge = !pair && scenario.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
                     .plots = plots_of(scenario.rig, plots_for(scenario)),

@@ -116,7 +116,7 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
                       : about_pressure  ? "pressure"
                                         : "contraction";
   Plot first = plot_of(about_force || about_pressure ? label
-                       : pair                        ? "angle"
+                       : of.key == "angle"           ? "angle"
                                                      : "height",
                        of.title, of.key, {});
   if (!of.given.empty()) first.lines.push_back({.key = "given_" + of.key, .label = of.given, .given = true});
@@ -141,10 +141,11 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
     plots.push_back(
         error_of("valve_pressure_error", "Error of the valve's pressure: " + of.off, "valve_pressure"));
   if (of.driven.joint_force)
-    plots.push_back(pair ? plot_of("joint_torque", "Torque on the joint from outside", "joint_torque",
-                                   {{.key = "joint_torque", .label = "torque"}})
-                         : plot_of("joint_force", "Force on the cord from outside", "joint_force",
-                                   {{.key = "joint_force", .label = "force"}}));
+    plots.push_back(pair || rig.has_angle()
+                        ? plot_of("joint_torque", "Torque on the joint from outside", "joint_torque",
+                                  {{.key = "joint_torque", .label = "torque"}})
+                        : plot_of("joint_force", "Force on the cord from outside", "joint_force",
+                                  {{.key = "joint_force", .label = "force"}}));
   if (pair) {
     plots.push_back(plot_of("tensions", "Forces of the cords", "force", lines_of(true, "tension", "")));
     plots.push_back(plot_of("stiffness", "Stiffness of the joint", "stiffness",
@@ -187,10 +188,11 @@ std::vector<Loop> loops_of(const run::Driven& driven) {
 }
 
 std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair) {
-  const std::string at = position(pair);
+  const bool angle = rig.has_angle();
+  const std::string at = position(angle);
   std::vector<Plot> plots{
-      plot_of(pair ? "angle" : "height", pair ? "Joint angle, as counted" : "Contraction, as counted", at,
-              lines_of(false, at, pair ? "angle" : "contraction")),
+      plot_of(angle ? "angle" : "height", angle ? "Joint angle, as counted" : "Contraction, as counted", at,
+              lines_of(false, at, angle ? "angle" : "contraction")),
       commands_of(rig, pair),
       plot_of("pressures", "Pressures", "muscle_pressure",
               lines_of(pair, "reference_pressure", "commanded", true, "commanded"))};

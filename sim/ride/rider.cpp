@@ -196,15 +196,12 @@ bool arrive(std::span<Rider> riders, double at_s) {
 
 void Rider::look() {
   const plant::State<double>& state = now.flow.state;
-  const double turned =
-      state.joint.contraction_ratio - (plant_.opposite() ? plant_.link().contraction_ratio : 0.0);
-  const double length_m = plant_.rig().muscle.rest_length_m;
-  const double true_rise_m = turned * length_m;
+  const double true_rise_m = plant_.shown_m(state.joint.contraction_ratio);
   double rise_m = true_rise_m;
   const plant::Sensor& sensor = plant_.rig().sensors.position();
   if (const double effect_s = plant_.rig().effects.reading_delay_s(); effect_s > 0.0 || sensor.is_late()) {
     const double then_s = now.time_s - (effect_s + sensor.late_s(now.time_s));
-    now.rises.note(now.time_s, rise_m, state.joint.contraction_speed_per_s * length_m, then_s);
+    now.rises.note(now.time_s, rise_m, plant_.shown_speed_m_per_s(state.joint), then_s);
     rise_m = now.rises.at(then_s);
   }
   const plant::Stroke<double> stroke{state.joint.contraction_ratio, state.joint.contraction_speed_per_s};

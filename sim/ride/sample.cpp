@@ -68,16 +68,18 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   row.joint_force_N = drive.joint_force_N;
   row.joint_torque_N_m = -radius_m * drive.joint_force_N;
   show(rig.sensors, row, 1, reading, noise[0], row.shown);
-  if (!plant.opposite()) {
+  if (!plant.has_angle()) {
     row.read_ratio = counted * (height_m / length_m);
     return row;
   }
+  row.read_angle_rad = counted * height_m / radius_m;
+  row.angle_rad = plant.angle_rad(state.joint.contraction_ratio);
+  row.angle_speed_rad_per_s = plant.angle_speed_rad_per_s(state.joint);
+  row.torque_N_m = plant.arm_m(state.joint.contraction_ratio) * row.cord_force_N;
+  if (!plant.opposite()) return row;
   write(row.opposite, *plant.opposite(), drive.opposite, plant.opposite_stroke(state).contraction_ratio,
         now.opposite);
   show(rig.sensors, row, 2, reading, noise[1], row.opposite.shown);
-  row.read_angle_rad = counted * height_m / radius_m;
-  row.angle_rad = plant.angle_rad(state.joint.contraction_ratio);
-  row.angle_speed_rad_per_s = length_m / radius_m * state.joint.contraction_speed_per_s;
   row.torque_N_m = radius_m * (row.cord_force_N - row.opposite.cord_force_N);
   row.stiffness_N_m_per_rad =
       plant::joint_stiffness_N_m_per_rad(plant, state, rider.now.flow.memory, rider.now.held);

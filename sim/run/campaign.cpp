@@ -109,7 +109,7 @@ EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run) {
   if (!run.failure.empty()) return {run.job, run.failure};
   const auto& samples = run.recording.samples;
   EndedRun end{.job = run.job, .rows = samples.size(), .solver = run.recording.solver};
-  if (campaign.rig.pair() != nullptr) {
+  if (campaign.rig.has_angle()) {
     end.angle_rad = span_of(samples, [](const Sample& row) { return row.read_angle_rad; });
     end.doubts = doubts(run.recording);
   } else {
@@ -136,7 +136,10 @@ domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run) {
   if (campaign.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr) table.muscle_pressure_Pa.emplace();
   for (const Sample& sample : run.recording.samples) {
     table.current_mA.push_back(sample.current_mA);
-    table.contraction_ratio.push_back(static_cast<double>(sample.counts) * per_count);
+    if (campaign.rig.has_angle())
+      table.angle_rad.push_back(sample.read_angle_rad);
+    else
+      table.contraction_ratio.push_back(static_cast<double>(sample.counts) * per_count);
     if (table.muscle_pressure_Pa)
       table.muscle_pressure_Pa->push_back(sample.shown[plant::Sensed::muscle_pressure]);
     if (campaign.rig.sensors.of(plant::Sensed::force) != nullptr)

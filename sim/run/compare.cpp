@@ -287,7 +287,7 @@ class Comparing {
   }
 
   void judge() {
-    const char* unit = scenario_.rig.pair() != nullptr ? " rad" : "";
+    const char* unit = scenario_.rig.has_angle() ? " rad" : "";
     for (const auto& criterion : scenario_.criteria) {
       const auto concerns = [&](const std::string& name) {
         return criterion.controller.empty() || criterion.controller == name;

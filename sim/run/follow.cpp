@@ -99,7 +99,7 @@ void Following::end(const engine::Counters& solver, const engine::NumericalFailu
           rider.plant().imbalance(recording_.samples.front().state, last.state, last.ledger);
     if (solver.stiff_from_tick >= 0)
       recording_.solver.stiff_from_tick -= std::lround(rig().settling_time_s / rig().tick_s);
-    note_slack(recording_);
+    note_slack(recording_, rig());
   }
   done_(std::move(recording_));
 }

@@ -97,8 +97,8 @@ void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>
                      std::vector<data::Finding>& findings) {
   constexpr double still_per_s = 2e-3, still_rad_per_s = 0.02;
   if (data.recorded.start != domain::Start::settled || data.recorded.skip_s > 0.0) return;
-  const bool pair = data.rig.pair() != nullptr;
-  bool may_move = !pair;
+  const bool angle = data.rig.has_angle();
+  bool may_move = !angle;
   double fastest = 0.0;
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < replayed.size(); ++i) {
@@ -107,8 +107,8 @@ void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>
       continue;
     const Sample& first = replayed[i].recording.samples.front();
     const double speed =
-        std::abs(pair ? first.angle_speed_rad_per_s : first.state.joint.contraction_speed_per_s);
-    if (speed <= (pair ? still_rad_per_s : still_per_s)) continue;
+        std::abs(angle ? first.angle_speed_rad_per_s : first.state.joint.contraction_speed_per_s);
+    if (speed <= (angle ? still_rad_per_s : still_per_s)) continue;
     runs.push_back(i);
     fastest = std::max(fastest, speed);
     may_move = may_move && !(data.runs[i].measured && data.runs[i].measured->point_s > 0.0);
@@ -118,7 +118,7 @@ void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>
       {.runs = std::move(runs),
        .message = fmt::format("is to begin at rest, and after settling_time ({:.4g} s) still moves at {:.2g} "
                               "{}: a longer settling_time of the rig{}",
-                              data.rig.settling_time_s, fastest, pair ? "rad/s" : "of its length a second",
+                              data.rig.settling_time_s, fastest, angle ? "rad/s" : "of its length a second",
                               may_move ? ", or start: moving" : ""),
        .severity = data::Severity::doubtful});
 }

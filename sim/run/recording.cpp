@@ -35,9 +35,9 @@ Recording without_load() {
   return none;
 }
 
-void note_slack(Recording& recording) {
+void note_slack(Recording& recording, const plant::Rig& rig) {
   const Driven& driven = recording.driven;
-  if (driven.pair || driven.length || driven.joint_force) note_slack_of(recording, 1);
+  if (rig.has_angle() || driven.length || driven.joint_force) note_slack_of(recording, 1);
   if (driven.pair) note_slack_of(recording, 2);
 }
 

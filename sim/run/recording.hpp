@@ -52,7 +52,7 @@ struct Recording {
   std::vector<controllers::Finding> findings{};  ///< what the controller found out
   double controller_s = 0.0;  ///< that the controller itself took, planning included, by the machine's clock
   Driven driven{};
-  std::vector<Slack> slack{};  ///< of a pair, of a given length, or under a force from outside
+  std::vector<Slack> slack{};  ///< of a pair, a lever, a given length, or under a force from outside
 
   /// One more row.
   void take(const Sample& row) {
@@ -65,8 +65,9 @@ struct Recording {
 /// Of a run that cannot begin: what hangs on the rig, its load_offset included, has no mass.
 Recording without_load();
 
-/// Notes where cords would have to push: of a pair, at a given length, or under a force from outside.
-void note_slack(Recording& recording);
+/// Notes where cords would have to push: of a pair or a lever, at a given length, or under a force from
+/// outside.
+void note_slack(Recording& recording, const plant::Rig& rig);
 
 /// What should not be believed of a run that came to its end, in words: a ledger that does not close, laws
 /// used where no muscle follows them. Empty for nearly all.

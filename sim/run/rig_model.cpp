@@ -15,7 +15,6 @@ class RiddenModel final : public controllers::RigModel {
  public:
   RiddenModel(const plant::Rig& rig, ride::Ride ride, const controllers::Command& rest, double tick_s)
       : rest_length_m_(rig.muscle.rest_length_m), dac_(rig.dac), tick_s_(tick_s), ride_(std::move(ride)) {
-    if (ride_.plant().opposite()) mounted_ratio_ = ride_.plant().link().contraction_ratio;
     const controllers::Command given{given_mA(rest.current_mA), given_mA(rest.opposite_mA)};
     ride_.start(drive_of(given), 0.0);
     for (auto ticks = std::lround(rig.settling_time_s / tick_s); ticks > 0; --ticks) step(given, 1);
@@ -33,7 +32,7 @@ class RiddenModel final : public controllers::RigModel {
     }
   }
   double contraction_ratio() const override {
-    return ride_.flow().state.joint.contraction_ratio - mounted_ratio_;
+    return ride_.plant().shown_ratio(ride_.flow().state.joint.contraction_ratio);
   }
   double shown_ratio() const override { return ride_.reading().wheel_m / rest_length_m_; }
   double stiffness_N_m_per_rad() const override {
@@ -53,7 +52,6 @@ class RiddenModel final : public controllers::RigModel {
  private:
   RiddenModel(const RiddenModel& other, const ride::Ride& ride)
       : rest_length_m_(other.rest_length_m_),
-        mounted_ratio_(other.mounted_ratio_),
         dac_(other.dac_),
         tick_s_(other.tick_s_),
         tick_(other.tick_),
@@ -66,7 +64,7 @@ class RiddenModel final : public controllers::RigModel {
     return drive;
   }
 
-  double rest_length_m_, mounted_ratio_ = 0.0;
+  double rest_length_m_;
   plant::Dac dac_;
   double tick_s_;
   long tick_ = 0, kept_tick_ = 0;

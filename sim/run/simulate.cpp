@@ -114,7 +114,7 @@ class Run : public ride::BatchItem {
     recording_.findings = findings_for(controller_, plan_.rig);
     recording_.driven.pair = plan_.rig.pair() != nullptr;
     recording_.driven.joint_force = !plan_.outer_forces.empty();
-    note_slack(recording_);
+    note_slack(recording_, plan_.rig);
     done_(std::move(recording_));
   }
 

@@ -45,9 +45,24 @@ double per_ratio(const plant::Rig& rig) {
   return rig.pair() != nullptr ? rig.muscle.rest_length_m / rig.joint.wheel_radius_m : 1.0;
 }
 
+double rad_per_shown_ratio(const plant::Rig& rig) {
+  return rig.muscle.rest_length_m / rig.joint.wheel_radius_m;
+}
+
 std::vector<Wanted> wanted_of(const domain::Scenario& scenario) {
   const plant::Rig& rig = scenario.rig;
   const std::size_t ticks = ticks_of(scenario);
+  if (rig.lever() != nullptr) {
+    const double rad = rad_per_shown_ratio(rig);
+    Wanted wanted{"",
+                  controllers::sample(scenario.angle, ticks, rig.tick_s, rad),
+                  {},
+                  {},
+                  controllers::last_change_s(scenario.angle)};
+    for (const double ratio : wanted.ratios) wanted.values.push_back(ratio * rad);
+    wanted.first = first_tick(scenario, wanted);
+    return {std::move(wanted)};
+  }
   if (rig.pair() == nullptr) {
     const auto ratios = controllers::sample(scenario.target, ticks, rig.tick_s, rig.muscle.rest_length_m);
     Wanted wanted{"", ratios, ratios, {}, controllers::last_change_s(scenario.target)};
@@ -101,10 +116,10 @@ std::optional<controllers::CurrentRange> limits_of(const controllers::Settings& 
 
 Metrics metrics_of(const domain::Scenario& scenario, const Wanted& wanted, const Recording& recording,
                    const std::optional<controllers::CurrentRange>& limits) {
-  const bool pair = scenario.rig.pair() != nullptr;
+  const bool angle = scenario.rig.has_angle();
   std::vector<double> followed, current_mA;
   for (const auto& sample : recording.samples) {
-    followed.push_back(pair ? sample.angle_rad : sample.state.joint.contraction_ratio);
+    followed.push_back(angle ? sample.angle_rad : sample.state.joint.contraction_ratio);
     current_mA.push_back(sample.current_mA);
   }
   const double from_s = static_cast<double>(wanted.first) * scenario.rig.tick_s;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include <plant/plant.hpp>
 #include <sim/run/rounds.hpp>
 #include <sim/run/tune_controller.hpp>
 
@@ -72,11 +73,11 @@ class Tuning {
 
  private:
   double rmse(const Recording& recording, const Wanted& wanted) const {
-    const double mounted_ratio = plan_.rig.pair() ? plan_.rig.pair()->contraction_ratio : 0.0;
+    const plant::Plant plant = plant::plant_of(plan_.rig, plan_.load_kg);
     double squares = 0.0;
     for (std::size_t k = wanted.first; k < wanted.ratios.size(); ++k)
-      squares +=
-          std::pow(recording.samples[k].state.joint.contraction_ratio - mounted_ratio - wanted.ratios[k], 2);
+      squares += std::pow(
+          plant.shown_ratio(recording.samples[k].state.joint.contraction_ratio) - wanted.ratios[k], 2);
     return std::sqrt(squares / static_cast<double>(wanted.ratios.size() - wanted.first));
   }
 

@@ -47,6 +47,22 @@ TEST(Jacobian, KnowsTwoMuscles) {
   expect_slopes<Layout<2, plant::Memories::few, Books::polytropic>>(plant::rig_with_all_effects());
 }
 
+TEST(Jacobian, KnowsLeversAndStops) {
+  plant::Rig hanging, points, table;
+  hanging.joint.lowest_ratio = 0.02;
+  hanging.joint.highest_ratio = 0.2;
+  plant::Lever lever;
+  lever.spring_N_m_per_rad = 2.0;
+  points.mechanics = lever;
+  points.joint.lowest_rad = 0.2;
+  points.joint.highest_rad = 1.2;
+  lever.arms = {{-0.5, 0.03}, {0.5, 0.06}, {2.0, 0.04}};
+  lever.plane = plant::Plane::horizontal;
+  table.mechanics = lever;
+  for (const plant::Rig& rig : {hanging, points, table})
+    expect_slopes<Layout<1, false, Books::isothermal>>(rig);
+}
+
 TEST(Jacobian, IsRefusedOutsideTheDomain) {
   const plant::Plant plant(plant::Rig{}, 15.0);
   const Problem<Layout<1, plant::Memories::none, Books::none>> problem(plant);

@@ -1,4 +1,5 @@
 // Eight rigs in the lanes of one number do what each of them does alone, on any machine.
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -6,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/engine/batch.hpp>
 #include <sim/engine/vectorised.hpp>
 
 #include "random_rigs.hpp"
@@ -97,7 +99,14 @@ struct Eight {
       vary(one.valve.dead_band_Pa);
       vary(one.hose.conductance_m3_per_s_Pa);
       vary(one.joint.guide_damping_N_s_per_m);
-      plants.emplace_back(one, chance.between(8.0, 25.0));
+      vary(one.joint.stop_N_per_m);
+      if (plant::Lever* lever = one.lever()) {
+        vary(lever->base_m);
+        vary(lever->mass_kg);
+        vary(lever->hangs_at_rad);
+        for (auto& line : lever->arms) vary(line.arm_m);
+      }
+      plants.push_back(plant::plant_of(one, chance.between(8.0, 25.0)));
       state.joint.contraction_ratio.set(lane, chance.between(-0.01, 0.28));
       state.joint.contraction_speed_per_s.set(lane, chance.between(-2.0, 2.0));
       state.side.valve_pressure_Pa.set(lane, chance.between(-0.5e5, 6e5));
@@ -165,6 +174,35 @@ TEST(Vectorised, RigsKeepToTheirOwnLaws) {
     for (int i = 0; i < 100; ++i) expect_alike(Eight(chance, rig), "regulator");
   }
   for (int i = 0; i < 100; ++i) expect_alike(Eight(chance, plant::rig_with_all_effects()), "all effects");
+}
+
+TEST(Vectorised, LeversKeepToTheirOwnArms) {
+  Chance chance(5);
+  plant::Rig points, table, hanging;
+  plant::Lever lever;
+  lever.base_m = 0.5;
+  lever.attached_m = 0.06;
+  lever.spring_N_m_per_rad = 2.0;
+  points.mechanics = lever;
+  points.joint.lowest_rad = 0.2;
+  points.joint.highest_rad = 1.2;
+  lever.arms = {{-0.5, 0.03}, {0.5, 0.06}, {2.0, 0.04}};
+  lever.spring_ways = plant::SpringWays::one;
+  table.mechanics = lever;
+  hanging.joint.highest_ratio = 0.1;
+  for (int i = 0; i < 100; ++i) {
+    expect_alike(Eight(chance, points), "points");
+    expect_alike(Eight(chance, table), "table");
+    expect_alike(Eight(chance, hanging), "stops");
+  }
+  const plant::Plant one = plant::plant_of(points), other = plant::plant_of(table),
+                     neither = plant::plant_of(hanging);
+  const auto kind = [](const plant::Plant& a, const plant::Plant& b) {
+    return kind_of(std::array{&a, &b}).has_value();
+  };
+  EXPECT_TRUE(kind(one, one));
+  EXPECT_FALSE(kind(one, other));
+  EXPECT_FALSE(kind(one, neither));
 }
 
 TEST(Vectorised, AnEffectOfOneRigIsNotItsNeighbours) {

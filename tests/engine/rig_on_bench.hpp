@@ -11,7 +11,7 @@ namespace mckibben::engine {
 class RigOnBench {
  public:
   RigOnBench(const plant::Rig& rig, double load_kg, Settings settings, bool keep_ledger = false)
-      : plant(rig, load_kg), integrator(make_integrator(plant, settings, keep_ledger)) {}
+      : plant(plant::plant_of(rig, load_kg)), integrator(make_integrator(plant, settings, keep_ledger)) {}
 
   void start(double current_mA) {
     held.reference_pressure_Pa = plant.reference_pressure_Pa(current_mA);

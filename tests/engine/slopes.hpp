@@ -28,7 +28,7 @@ void expect_slopes(const plant::Rig& rig) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution(low, high)(random);
   };
-  const plant::Plant plant = L::sides == 1 ? plant::Plant(rig, 15.0) : plant::Plant(rig, rig, {});
+  const plant::Plant plant = L::sides == 1 ? plant::plant_of(rig, 15.0) : plant::Plant(rig, rig, {});
   Problem<L> problem(plant);
   for (int trial = 0; trial < 200; ++trial) {
     problem.held.reference_pressure_Pa = between(0.5e5, 5e5);

@@ -314,6 +314,21 @@ class AnFmu(unittest.TestCase):
         self.assertGreater(float(answers[0]), 0.1)
         self.assertLess(float(answers[1]), 0.0)
 
+    def test_of_a_lever_has_an_angle_and_a_load(self):
+        self.rig.write_text("schema: mckibben-rig/1\nmechanics:\n  kind: lever\n"
+                            "  arms: [{angle: -10 deg, arm: 40 mm}, {angle: 130 deg, arm: 45 mm}]\n")
+        for fmu in self.each("--true-states"):
+            self.assertNotIn("encoder_contraction_ratio", fmu.reference)
+            self.assertIn("mechanics.arms[1].arm", fmu.reference)
+            current, load, angle = (fmu.reference[name] for name in ("current", "load", "encoder_angle"))
+            raised = []
+            for kg in (0.5, 3.0):
+                answers = fmu.answers([f"0 set {load} {kg}", f"0 set {current} 8", "0 init 0", "0 start",
+                                       f"0 set {current} 15", *fmu.on(range(200)), f"0 get {angle}"])
+                raised.append(float(answers[0]))
+            self.assertGreater(raised[1], 0.2)
+            self.assertGreater(raised[0], raised[1])
+
     def test_a_state_as_bytes_goes_on_in_another_program(self):
         late = "  reading_delay: {time: 20 ms}\n  command_delay: {time: 30 ms}\n"
         self.rig.write_text("schema: mckibben-rig/1\n" + LAW + late)

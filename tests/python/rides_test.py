@@ -91,6 +91,23 @@ class Rides(unittest.TestCase):
         self.assertEqual(bench.state[0], 0.06)
         self.assertGreater(bench.moment["force_N"], 0.0)
 
+    def test_a_lever_is_read_by_its_angle(self):
+        ride = mckibben.Ride({"joint": {"highest_angle": "100 deg"}, "mechanics": {"kind": "lever"}}, load_kg=3.0)
+        ride.start(8.0)
+        for _ in range(150):
+            ride.step(15.0)
+        self.assertTrue(numpy.isnan(ride.reading.contraction_ratio))
+        self.assertAlmostEqual(ride.reading.angle_rad, numpy.radians(0.25 * ride.reading.counts), delta=1e-12)
+        # points 30 cm and 5 cm from the pivot, 150 deg apart at angle 0
+        apart = lambda angle: numpy.sqrt(0.0925 - 0.03 * numpy.cos(numpy.radians(150.0) - angle))
+        angle = ride.reading.angle_rad + numpy.radians(0.125)
+        self.assertGreater(angle, 0.3)
+        self.assertAlmostEqual(ride.state[0], (apart(0.0) - apart(angle)) / 0.3, delta=5e-4)
+        run = ride.follow([15.0, 15.0])
+        self.assertAlmostEqual(run["encoder_angle_rad"][0], run["angle_rad"][0], delta=numpy.radians(0.5))
+        with self.assertRaisesRegex(ValueError, "not the angle of a lever"):
+            mckibben.Batch({"mechanics": {"kind": "lever"}}, [1.0])
+
     def test_nonsense_is_refused(self):
         ride = mckibben.Ride(load_kg=11.138)
         for bad in (lambda: mckibben.Ride("thesis"), lambda: mckibben.Ride("thesis", load_kg=-1.0),

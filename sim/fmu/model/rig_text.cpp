@@ -141,8 +141,10 @@ void become(plant::Mechanics& mechanics, std::size_t kind) {
   if (kind == mechanics.index()) return;
   if (kind == 1)
     mechanics = plant::HeldLength{};
-  else
+  else if (kind == 2)
     mechanics = plant::Pair{};
+  else
+    mechanics = plant::Lever{};
 }
 
 template <class Leaf>
@@ -160,6 +162,7 @@ void walk(plant::Rig& rig, Leaf leaf) {
     LawWalk(leaf, "law_2")(both->opposite.effects.laws);
     visitor("mechanics", *both);
   }
+  if (plant::Lever* const lever = rig.lever()) visitor("mechanics", *lever);
 }
 
 /// The next line without its end, taken off the text.
