@@ -54,10 +54,12 @@ Json run_from(const fs::path& scenarios, const std::string& name) {
     EXPECT_GE(run.at("rmse" + unit).get<double>(), 0.0);
     EXPECT_LE(run.at("rmse" + unit).get<double>(), run.at("largest_error" + unit).get<double>());
     const std::string csv = read_text(folder / run.at("file").get<std::string>());
-    EXPECT_EQ(csv.rfind("time_s,current_mA,contraction_ratio,contraction_speed_per_s,valve_pressure_bar,"
-                        "muscle_pressure_bar,encoder_contraction_ratio",
-                        0),
-              0u);
+    const bool lever = !unit.empty();
+    const std::string head = std::string("time_s,current_mA,contraction_ratio,contraction_speed_per_s,") +
+                             (lever ? "angle_rad,angle_speed_rad_per_s," : "") +
+                             "valve_pressure_bar,muscle_pressure_bar," +
+                             (lever ? "encoder_angle_rad" : "encoder_contraction_ratio");
+    EXPECT_TRUE(csv.starts_with(head)) << csv.substr(0, head.size());
     EXPECT_TRUE(lacks(csv, "nan"));
   }
   return document;
