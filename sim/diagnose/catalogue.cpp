@@ -142,16 +142,15 @@ std::vector<Candidate> in_sight(const Sight& sight) {
   return list;
 }
 
-/// A leak that matters where nothing fills the muscle again [m3/(s.Pa)]: it takes a hundredth of the gas in a
+/// A leak that matters where nothing fills the muscle again [m3/(s.Pa)]: it takes a share of the gas in a
 /// run.
 double leak_of_a_sealed_muscle(const domain::Dataset& data) {
-  constexpr double share = 0.01;
   double longest_s = data.row_s();
   for (const domain::Run& run : data.runs)
     if (run.measured && !run.measured->time_s.empty())
       longest_s = std::max(longest_s, run.measured->time_s.back() - run.measured->time_s.front());
   const plant::Gas& gas = data.rig.gas;
-  return share * plant::Braid(data.rig.muscle).volume_m3(0.0) /
+  return thresholds.parameter.sealed_leak * plant::Braid(data.rig.muscle).volume_m3(0.0) /
          (gas.gas_constant_J_per_kg_K * gas.temperature_K * gas.reference_density_kg_per_m3 * longest_s);
 }
 

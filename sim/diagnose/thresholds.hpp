@@ -57,6 +57,7 @@ struct ParameterThresholds {
   double most_deviations = 3.0;  ///< of its prior: further it is not the rig that was described
   double notable = 1.0;          ///< deviations that are worth telling
   double least_size = 0.01;      ///< of an effect's typical size: as good as absent, and may be stiff
+  double sealed_leak = 0.01;     ///< of a sealed muscle's gas: what a typical leak takes in a run
   int law_places = 12;           ///< over the range of a number of one's own law, from which fits begin
   double shape_range = 4.0;      ///< factor: so far outside those tried a shape may go
 };
