@@ -60,7 +60,7 @@ TEST(Jacobian, KnowsLeversAndStops) {
   lever.plane = plant::Plane::horizontal;
   table.mechanics = lever;
   for (const plant::Rig& rig : {hanging, points, table})
-    expect_slopes<Layout<1, false, Books::isothermal>>(rig);
+    expect_slopes<Layout<1, plant::Memories::none, Books::isothermal>>(rig);
 }
 
 TEST(Jacobian, IsRefusedOutsideTheDomain) {
