@@ -117,7 +117,7 @@ TEST(DiagnosisJson, TellsWhatWasReadBesideOnlyWhereSomethingWas) {
                    {"recalibrated_rmse", 4.0}, {"corrected_rmse", 0.6}};
   EXPECT_EQ(Json::parse(json_of(measured(), diagnosis)).at("gap").at("beside").at(0), force);
   const std::string table = table_of(measured(), diagnosis);
-  EXPECT_TRUE(holds(table, "each weighed by its own floor"));
+  EXPECT_TRUE(holds(table, "each weighted by its own noise floor"));
 }
 
 TEST(DiagnosisJson, NamesAParameterByItsPartOnlyWhereTheLastWordIsNotEnough) {
