@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -52,6 +53,22 @@ domain::Dataset in_parts(domain::Dataset data) {
     data.runs.push_back(std::move(run));
   }
   return data;
+}
+
+bool are_branches(const domain::Dataset& data) {
+  bool up = false, down = false;
+  for (const domain::Run& run : data.runs) {
+    if (!run.measured || run.measured->point_s == 0.0) return false;
+    const auto& columns = run.measured->columns;
+    const auto drive = std::ranges::find_if(columns, &domain::MeasuredColumn::given);
+    if (drive == columns.end()) return false;
+    const bool rises = std::ranges::is_sorted(drive->values),
+               falls = std::ranges::is_sorted(drive->values, std::greater());
+    if (rises == falls) return false;
+    up = up || rises;
+    down = down || falls;
+  }
+  return up && down;
 }
 
 }  // namespace mckibben::data

@@ -1,4 +1,5 @@
-// Runs of fewer rows: the beginning of one, or one long run cut so that it can be held out part by part.
+// Runs of fewer rows: the beginning of one, or one long run cut so that it can be held out part by part; or
+// the branches of a loop.
 #pragma once
 
 #include <sim/domain/dataset.hpp>
@@ -12,5 +13,9 @@ domain::Run beginning_of(domain::Run run, std::size_t rows);
 /// the beginning, and its own rows are judged. Others, and runs of few rows, as they are.
 domain::Dataset in_parts(domain::Dataset data);
 bool has_parts(const domain::Dataset& data);
+
+/// Whether each run is one branch of a loop of settled points, and both ways are there: what all runs of one
+/// way share is hysteresis then.
+bool are_branches(const domain::Dataset& data);
 
 }  // namespace mckibben::data

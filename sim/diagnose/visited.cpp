@@ -55,29 +55,25 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
         pressure_bar.see(value / plant::Pa_per_bar);
     load_kg.see(measured.load_kg);
   }
-  const std::string commanded =
-      in_unit(data.rig.command_unit(),
-              fmt::format("currents of {:.3g} to {:.3g} mA", current_mA.low, current_mA.high));
+  const std::string driven =
+      data.pressure_is_given()
+          ? fmt::format("pressures of {:.3g} to {:.3g} bar", pressure_bar.low, pressure_bar.high)
+          : in_unit(data.rig.command_unit(),
+                    fmt::format("currents of {:.3g} to {:.3g} mA", current_mA.low, current_mA.high));
   if (data.force_is_judged())
-    return fmt::format("{} and contraction ratios of {:.3f} to {:.3f}, as in these runs",
-                       data.pressure_is_given() ? fmt::format("pressures of {:.3g} to {:.3g} bar",
-                                                              pressure_bar.low, pressure_bar.high)
-                                                : commanded,
-                       ratio.low, ratio.high);
+    return fmt::format("{} and contraction ratios of {:.3f} to {:.3f}, as in these runs", driven, ratio.low,
+                       ratio.high);
   if (data.rig.lever() != nullptr)
     return fmt::format(
-        "{}, loads of {:.4g} to {:.4g} kg and joint angles of {:.3g} to {:.3g} deg, as in these runs",
-        data.pressure_is_given()
-            ? fmt::format("pressures of {:.3g} to {:.3g} bar", pressure_bar.low, pressure_bar.high)
-            : commanded,
+        "{}, loads of {:.4g} to {:.4g} kg and joint angles of {:.3g} to {:.3g} deg, as in these runs", driven,
         load_kg.low, load_kg.high, angle_deg.low, angle_deg.high);
   if (data.pressure_is_given())
     return fmt::format(
         "loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",
         load_kg.low, load_kg.high, ratio.low, ratio.high);
   return fmt::format(
-      "{}, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs",
-      commanded, load_kg.low, load_kg.high, ratio.low, ratio.high);
+      "{}, loads of {:.4g} to {:.4g} kg and contraction ratios of {:.3f} to {:.3f}, as in these runs", driven,
+      load_kg.low, load_kg.high, ratio.low, ratio.high);
 }
 
 }  // namespace mckibben::diagnose

@@ -212,33 +212,20 @@ std::optional<plant::RigOf<Lanes>> as_one(std::vector<plant::Rig> rigs) {
   return rig;
 }
 
-/// The levers that the rigs turn, as one; they differ in numbers alone (kind_of).
-plant::LeverOf<Lanes> levers_as_one(std::span<const plant::Plant> plants) {
+/// A part that `of` each plant differs in numbers alone, as one.
+template <template <class> class Part, class Of>
+Part<Lanes> part_as_one(std::span<const plant::Plant> plants, const Of& of) {
   std::vector<Leaves> leaves;
   for (const plant::Plant& plant : plants) {
-    plant::Lever lever = *plant.lever();
-    walk(lever, leaves.emplace_back());
+    Part<double> part = of(plant);
+    walk(part, leaves.emplace_back());
   }
   std::vector<long> chosen;
   for (const auto& choice : leaves.front().choices) chosen.push_back(choice.value_or(0));
-  plant::LeverOf<Lanes> lever;
+  Part<Lanes> part;
   Fill fill{leaves, chosen};
-  walk(lever, fill);
-  return lever;
-}
-
-/// What turns with the rigs, as one.
-plant::LinkOf<Lanes> as_one(std::span<const plant::Plant> pairs) {
-  std::vector<Leaves> leaves;
-  for (const plant::Plant& pair : pairs) {
-    plant::Link link = pair.link();
-    walk(link, leaves.emplace_back());
-  }
-  const std::vector<long> none;
-  plant::LinkOf<Lanes> link;
-  Fill fill{leaves, none};
-  walk(link, fill);
-  return link;
+  walk(part, fill);
+  return part;
 }
 
 void put_side(const plant::HeldSide& held, std::size_t lane, plant::HeldSideOf<Lanes>& all) {
@@ -264,12 +251,17 @@ std::optional<plant::PlantOf<Lanes>> vectorised(std::span<const plant::Plant> pl
   if (!opposite.empty()) {
     const auto other = as_one(std::move(opposite));
     if (!other) return std::nullopt;
-    return plant::PlantOf<Lanes>(*rig, *other, as_one(plants));
+    return plant::PlantOf<Lanes>(
+        *rig, *other,
+        part_as_one<plant::LinkOf>(plants, [](const plant::Plant& plant) { return plant.link(); }));
   }
   Lanes load_kg;
   for (std::size_t lane = 0; lane < Lanes::count; ++lane)
     load_kg.set(lane, plants[lane < plants.size() ? lane : 0].load_kg());
-  if (plants.front().lever()) return plant::PlantOf<Lanes>(*rig, load_kg, levers_as_one(plants));
+  if (plants.front().lever())
+    return plant::PlantOf<Lanes>(
+        *rig, load_kg,
+        part_as_one<plant::LeverOf>(plants, [](const plant::Plant& plant) { return *plant.lever(); }));
   return plant::PlantOf<Lanes>(*rig, load_kg);
 }
 

@@ -1,6 +1,5 @@
 // Where a search looks, what it begins there, and what of it is needed; see search.hpp.
 #include <algorithm>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -13,28 +12,6 @@ namespace mckibben::identify {
 
 using Eigen::Index;
 
-namespace {
-
-/// Whether each run is one branch of a loop of settled points, and both ways are there. What all runs of one
-/// way share is hysteresis then, and no run's label, zero or gain can be told from it.
-bool are_branches(const domain::Dataset& data) {
-  bool up = false, down = false;
-  for (const domain::Run& run : data.runs) {
-    if (!run.measured || run.measured->point_s == 0.0) return false;
-    const auto& columns = run.measured->columns;
-    const auto drive = std::ranges::find_if(columns, &domain::MeasuredColumn::given);
-    if (drive == columns.end()) return false;
-    const auto& values = drive->values;
-    const bool rises = std::ranges::is_sorted(values), falls = std::ranges::is_sorted(values, std::greater());
-    if (rises == falls) return false;
-    up = up || rises;
-    down = down || falls;
-  }
-  return up && down;
-}
-
-}  // namespace
-
 std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd& columns,
                                        const std::vector<Probe>& list, const Point& point,
                                        const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes,
@@ -44,9 +21,8 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
   if (dictionary_.names(point).size() >= static_cast<std::size_t>(decisive.most_together)) return all;
   if (problem_.rows.data().parts_of_a_run) return all;  // one sensor read them all
   const Eigen::VectorXd variance = Model(problem_, point, base.error, base.term_N).variance();
-  const bool branches = are_branches(problem_.rows.data());
   for (int g = 0; g < static_cast<int>(differing.size()); ++g) {
-    if (point.lets_differ(g) || (branches && (g == zeros || g == gains || g == loads))) continue;
+    if (point.lets_differ(g) || (branches_ && (g == zeros || g == gains || g == loads))) continue;
     Point q = point;
     q.differ.push_back(g);
     std::ranges::sort(q.differ);

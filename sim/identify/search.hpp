@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <sim/data/parts.hpp>
 #include <sim/identify/decide.hpp>
 #include <sim/identify/decisive.hpp>
 #include <sim/identify/identify.hpp>
@@ -36,7 +37,11 @@ struct OutOfWork : run::Interrupted {};
 class Search {
  public:
   Search(const Problem& problem, const Settings& settings)
-      : problem_(problem), settings_(settings), dictionary_(problem.dictionary), rows_(problem.rows) {}
+      : problem_(problem),
+        settings_(settings),
+        dictionary_(problem.dictionary),
+        rows_(problem.rows),
+        branches_(data::are_branches(problem.rows.data())) {}
 
   /// The rig as described: there is a result from here on.
   void begin();
@@ -107,6 +112,7 @@ class Search {
   const Settings& settings_;
   const Dictionary& dictionary_;
   const Rows& rows_;
+  const bool branches_;  ///< no run's label, zero or gain can be told from hysteresis
   std::map<Key, Model> table_;
   std::optional<Model> here_, at_;
   /// What the last look saw of all candidates.
