@@ -103,7 +103,8 @@ class HandingOver {
             diagnose::thresholds.tell.closed)
       return found_.table[found_.decision.best].general ? Verdict::unknown_effect : Verdict::cannot_tell;
     if (decided != Verdict::nothing_missing || parameters == nullptr) return decided;
-    if (!found_.chosen().error.explains()) return Verdict::cannot_tell;
+    // The rig as described may be chosen for being as good at unseen runs: the parameters say what it leaves.
+    if (!found_.chosen().error.explains() && !parameters->error.explains()) return Verdict::cannot_tell;
     step("what of the catalogue these data would show");
     const Visible seen = visible(*parameters);
     if (seen.hidden.empty()) return decided;
