@@ -3,7 +3,6 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
-#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -152,20 +151,6 @@ std::string support_in_words(const NamedEffect& effect) {
   return capitalised(std::move(said)) + ". ";
 }
 
-std::string effects_in_words(const Diagnosis& d) {
-  std::string said, runs;
-  for (const NamedEffect& effect : d.effects) {
-    said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.who().words(),
-                        sentence_of(effect.name, d.corrected.effects));
-    said += doubts_in_words(effect);
-    runs += support_in_words(effect);
-  }
-  const std::string more = stand_ins_in_words(d);
-  return fmt::format("Missing: {}. {}{}{}{}", said, runs,
-                     more.empty() ? "" : "Something else is missing, too." + more + " ", exceeded_in_words(d),
-                     gap_in_words(d));
-}
-
 /// In what the letters of its terms count (plant/effects/residual_force.hpp); empty if there are none.
 std::string counted_in_words(const std::vector<LawTerm>& law) {
   std::vector<std::string_view> said;
@@ -180,30 +165,47 @@ std::string counted_in_words(const std::vector<LawTerm>& law) {
   return said.empty() ? "" : fmt::format(" ({})", fmt::join(said, ", "));
 }
 
-std::string law_in_words(const Diagnosis& d) {
+/// The largest terms of the law, and how many more there are.
+std::string force_in_words(const Diagnosis& d) {
   constexpr std::size_t most = thresholds.tell.most_terms;
   std::vector<LawTerm> terms = d.residual_law;
   std::ranges::stable_sort(terms, std::greater{},
                            [](const LawTerm& term) { return std::abs(term.coefficient.value); });
   const std::size_t more = terms.size() > most ? terms.size() - most : 0;
   if (more == 0) terms = d.residual_law;
-  std::string law;
-  for (const LawTerm& term : std::span(terms).first(terms.size() - more)) {
-    const double force_N = domain::significant(term.coefficient.value, 3);
-    const char* sign = law.empty() ? "" : force_N < 0.0 ? " - " : " + ";
-    law += fmt::format("{}{} N x {}", sign, law.empty() ? force_N : std::abs(force_N), term.term);
+  std::string law = d.gap.judged == Judged::angle ? "as a force that shortens each muscle it is "
+                                                  : "as a force on the load it is ";
+  for (std::size_t i = 0; i + more < terms.size(); ++i) {
+    const double force_N = domain::significant(terms[i].coefficient.value, 3);
+    if (i > 0) law += force_N < 0.0 ? " - " : " + ";
+    law += fmt::format("{} N x {}", i > 0 ? std::abs(force_N) : force_N, terms[i].term);
   }
   if (more > 0) law += fmt::format(" and {} smaller terms", more);
-  law += counted_in_words(d.residual_law);
-  if (law.empty() && !d.stand_ins.empty())
+  return law + counted_in_words(d.residual_law);
+}
+
+std::string effects_in_words(const Diagnosis& d) {
+  std::string said, runs;
+  for (const NamedEffect& effect : d.effects) {
+    said += fmt::format("{}{} ({})", said.empty() ? "" : ", and ", effect.who().words(),
+                        sentence_of(effect.name, d.corrected.effects));
+    said += doubts_in_words(effect);
+    runs += support_in_words(effect);
+  }
+  const std::string more =
+      d.residual_law.empty() ? "" : "Something else is missing, too: " + force_in_words(d) + ". ";
+  return fmt::format("Missing: {}. {}{}{}{}", said, runs, more, exceeded_in_words(d), gap_in_words(d));
+}
+
+std::string law_in_words(const Diagnosis& d) {
+  if (!d.residual_law.empty())
+    return fmt::format("Something is missing that no effect of the catalogue explains; {}. {}",
+                       force_in_words(d), gap_in_words(d));
+  if (!d.stand_ins.empty())
     return fmt::format("Something real is missing that no effect of the catalogue explains.{} {}",
                        stand_ins_in_words(d), gap_in_words(d));
-  if (law.empty())
-    return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
-           "force was found either.";
-  return fmt::format(
-      "Something is missing that no effect of the catalogue explains; as a force {} it is {}. {}",
-      d.gap.judged == Judged::angle ? "that shortens each muscle" : "on the load", law, gap_in_words(d));
+  return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
+         "force was found either.";
 }
 
 std::string cannot_tell_in_words(const Diagnosis& d) {

@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include <sim/diagnose/visited.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/identify/bench.hpp>
+#include <sim/identify/decisive.hpp>
 #include <sim/identify/diagnosis.hpp>
 #include <sim/identify/estimates.hpp>
 #include <sim/identify/gaps.hpp>
@@ -78,13 +80,45 @@ class HandingOver {
       warn("the rig's residual_law is kept as it is: if it is wrong, take it out");
   }
 
-  /// Faults of the bench are no effects of the rig: the verdict is about the rig without them.
-  Verdict of_the_rig(Verdict decided) const {
-    const Model& model = found_.chosen();
-    const bool effects = std::ranges::any_of(model.point.effects, [&](const Added& added) {
+  static bool has_effects(const Model& model) {
+    return std::ranges::any_of(model.point.effects, [&](const Added& added) {
       return model.problem->dictionary.entries[added.entry].effect.has_value();
     });
-    if (decided != Verdict::missing_effect || effects) return decided;
+  }
+
+  /// Names that predict unseen runs better than general terms do alone, and close most of the gap that the
+  /// parameters leave, where both together explain the data: the terms are something else that is missing.
+  bool names_hold() const {
+    if (!has_effects(found_.chosen())) return false;
+    Point without_terms = found_.chosen().point;
+    without_terms.terms = Terms::none;
+    const auto names = found_.study->dictionary.names(without_terms);
+    std::optional<std::size_t> named, terms;
+    for (std::size_t i = 0; i < found_.table.size(); ++i) {
+      const Judged& one = found_.table[i];
+      if (!one.general && one.names == names) named = i;
+      if (one.general && !has_effects(found_.models[i]) && (!terms || one.score > found_.table[*terms].score))
+        terms = i;
+    }
+    if (!named || !terms) return false;
+    const auto [nats, error] = loss(found_.table[*named].held_out, found_.table[*terms].held_out);
+    const auto gap = [&](std::size_t i) {  // of what the parameters leave
+      const Three all = three(i);
+      return gap_of(found_,
+                    {all.recalibrated, all.recalibrated, all.corrected, all.by_recalibrated,
+                     all.by_recalibrated, all.by_corrected},
+                    experiment_.floor());
+    };
+    return nats > std::max(decisive.errors * error, decisive.strong) &&
+           gap(*named).closed >= diagnose::thresholds.tell.closed &&
+           gap(found_.decision.chosen).floors_left() <= diagnose::thresholds.start.explained_floors;
+  }
+
+  /// Faults of the bench are no effects of the rig: the verdict is about the rig without them.
+  Verdict of_the_rig(Verdict decided) const {
+    if (decided == Verdict::unknown_effect && names_hold()) return Verdict::missing_effect;
+    const Model& model = found_.chosen();
+    if (decided != Verdict::missing_effect || has_effects(model)) return decided;
     return (model.point.z.cwiseAbs().array() > diagnose::thresholds.parameter.notable).any()
                ? Verdict::recalibrate
                : Verdict::nothing_missing;
@@ -144,8 +178,7 @@ class HandingOver {
     result_.left_open = std::move(estimates.left_open);
     result_.bench = bench_faults(model, estimates);
     result_.residual_law = std::move(estimates.law);
-    if (result_.verdict == Verdict::unknown_effect)
-      result_.law_valid_for = diagnose::visited(data_, usable_.runs);
+    if (!result_.residual_law.empty()) result_.law_valid_for = diagnose::visited(data_, usable_.runs);
     if (result_.verdict == Verdict::missing_effect) {
       result_.effects = std::move(estimates.effects);
       support(found_, result_.effects);

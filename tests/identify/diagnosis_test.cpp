@@ -104,6 +104,23 @@ TEST(HandedOver, NothingIsMissingWhereTheSupplyWandersSlowly) {
   EXPECT_TRUE(found.effects.empty());
 }
 
+// A force along the stroke that no effect of the catalogue is like, beside a leak that it cannot imitate.
+TEST(HandedOver, AnEffectAndWhatElseIsMissingBesideIt) {
+  plant::Rig truth = with_a_leak();
+  truth.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-9;
+  truth.effects.get<plant::ResidualForce>().terms = {{plant::Basis::sine, 1.0, 0.012}};
+  const Diagnosis found = handed_over(diagnose::small(truth));
+  EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
+  ASSERT_EQ(found.effects.size(), 1U) << found.because;
+  EXPECT_EQ(found.effects[0].name, "muscle_leak");
+  EXPECT_TRUE(surrounds(found.effects[0].parameters[0], 1e-9));
+  EXPECT_FALSE(found.residual_law.empty());
+  EXPECT_FALSE(found.law_valid_for.empty());
+  EXPECT_TRUE(found.stand_ins.empty());
+  EXPECT_TRUE(holds(found.because, "Missing: muscle_leak", "Something else is missing, too: as a force"))
+      << found.because;
+}
+
 TEST(HandedOver, AFaultOfTheBenchFirstWithTheLinesThatMendIt) {
   domain::Dataset data = diagnose::small(with_a_leak());
   for (domain::Run& run : data.runs) run.load_kg += 1.0;  // a hook that was weighed twice
