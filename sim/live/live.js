@@ -3,7 +3,7 @@
 // graphics card, take longer than a frame lasts.
 const behind = 0.05;  // seconds by which the page follows
 const plotsAFrame = 2;
-const drawing = new (pair ? PairPicture : RigPicture)(byId('rig'));
+const drawing = pictureOf(byId('rig'));
 const playing = {
   offset: null,
   shown: 0,

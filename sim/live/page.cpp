@@ -98,8 +98,8 @@ Page page_of(const std::string& name, const plant::Rig& rig, const Session& sess
       MCKIBBEN_VERSION, escaped(report::uplot_licence), data_of(rig, session));
   for (const auto& part : {report::uplot_css, report::page_css, live_css}) page.css += part;
   page.js = std::string(report::uplot_js) + "\n'use strict';\n";
-  for (const auto& part :
-       {report::data_js, report::plots_js, report::rig_js, report::pair_js, scroll_js, panel_js, live_js})
+  for (const auto& part : {report::data_js, report::plots_js, report::rig_js, report::pair_js,
+                           report::lever_js, scroll_js, panel_js, live_js})
     page.js += part;
   return page;
 }

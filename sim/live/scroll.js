@@ -83,7 +83,7 @@ const singleTimePlots = [
   },
   {title: command.title, lines: [[command.name, command.name]]},
   {
-    title: 'Forces on the load, upwards',
+    title: turns ? 'Forces that shorten the muscle' : 'Forces on the load, upwards',
     lines:
         [['braid_force', 'braid'], ['friction_force', 'friction of the threads'], ['effects_pull', 'effects']]
   },

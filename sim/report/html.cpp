@@ -220,7 +220,7 @@ std::string html_of(const Contents& contents) {
         escaped(uplot_licence));
     html += "<script type='application/json' id='data'>" + data_of(contents) + "</script>\n";
     html += fmt::format("<script>\n{}\n</script>\n<script>\n'use strict';\n", uplot_js);
-    for (const auto& part : {data_js, plots_js, loops_js, rig_js, pair_js, page_js}) html += part;
+    for (const auto& part : {data_js, plots_js, loops_js, rig_js, pair_js, lever_js, page_js}) html += part;
     html += "</script>\n";
   }
   return html + "</body>\n</html>\n";

@@ -22,6 +22,22 @@ input::Json muscle_json(const plant::Muscle& muscle) {
           {"braid_angle_rad", muscle.braid_angle_rad}};
 }
 
+input::Json lever_json(const plant::Lever& lever, const plant::Joint& joint) {
+  const double drawn_to_rad = 90.0 * plant::degree_rad;  // where no stop says how far it turns
+  input::Json arms = input::Json::array();
+  for (const auto& one : lever.arms) arms.push_back({{"angle_rad", one.angle_rad}, {"arm_m", one.arm_m}});
+  return {{"contraction_ratio", lever.contraction_ratio},
+          {"base_m", lever.base_m},
+          {"attached_m", lever.attached_m},
+          {"opening_rad", lever.opening_rad},
+          {"arms", arms},
+          {"centre_m", lever.centre_m},
+          {"load_at_m", lever.load_at_m},
+          {"hangs_at_rad", lever.hangs_at_rad},
+          {"lowest_rad", joint.lowest_rad > joint.nowhere_rad[0] ? joint.lowest_rad : 0.0},
+          {"highest_rad", joint.highest_rad < joint.nowhere_rad[1] ? joint.highest_rad : drawn_to_rad}};
+}
+
 }  // namespace
 
 input::Json drawn_rig_json(const plant::Rig& rig, bool gauge) {
@@ -36,6 +52,7 @@ input::Json drawn_rig_json(const plant::Rig& rig, bool gauge) {
                      {"span", rig.valve.span_command}};
   if (const plant::Pair* pair = rig.pair())
     json["pair"] = {{"hangs_at_rad", pair->hangs_at_rad}, {"opposite", muscle_json(pair->opposite.muscle)}};
+  if (const plant::Lever* lever = rig.lever()) json["lever"] = lever_json(*lever, rig.joint);
   if (rig.holds_a_length()) json["bench"] = true;
   return json;
 }

@@ -1,5 +1,5 @@
 // What pages hand to their scripts: JSON that can stand in them, and the rig for its pictures (rig.js,
-// pair.js).
+// pair.js, lever.js).
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@ const view = {
   playing: 0
 };
 const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
-const drawing = new (report.rig.pair ? PairPicture : RigPicture)(byId('rig'));
+const drawing = pictureOf(byId('rig'));
 const ratio = 'contraction ratio';
 const digits = {
   [ratio]: 5,

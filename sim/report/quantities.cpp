@@ -157,10 +157,13 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
     return plots;
   }
   Plot forces = plot_of(
-      "forces", of.driven.length ? "Forces that shorten the muscle" : "Forces on the load, upwards", "force",
+      "forces",
+      of.driven.length || rig.has_angle() ? "Forces that shorten the muscle" : "Forces on the load, upwards",
+      "force",
       {{.key = "braid_force", .label = "braid", .main = true},
-       {.key = "friction_force", .label = "friction of the threads"},
-       {.key = "weight", .label = "weight of the load, downwards", .given = true}});
+       {.key = "friction_force", .label = "friction of the threads"}});
+  if (!rig.has_angle())
+    forces.lines.push_back({.key = "weight", .label = "weight of the load, downwards", .given = true});
   if (!rig.effects.absent()) forces.lines.push_back({.key = "effects_pull", .label = "effects of the rig"});
   if (of.driven.length || of.force) forces.lines.push_back({.key = "force", .label = "all: the cord"});
   plots.push_back(std::move(forces));

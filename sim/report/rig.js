@@ -95,6 +95,47 @@ class MusclePicture {
   fill(bar) { this.tube.style.setProperty('--full', share(bar)); }
 }
 
+/** The valve with its command, and bars of the pressures. */
+class ValvePicture {
+  constructor(part, floor) {
+    part('rect', {class: 'metal', x: 18, y: floor, width: 88, height: 56, rx: 4});
+    const {supply_bar} = report.rig, {zero, span, unit} = command;
+    part('text', {x: 62, y: floor + 22, 'text-anchor': 'middle'}).append('valve');
+    this.current = part('text', {x: 62, y: floor + 44, 'text-anchor': 'middle'});
+    part('text', {class: 'soft range', x: 62, y: floor + 73, 'text-anchor': 'middle'})
+        .append(`${short(zero)} to ${short(span)} ${unit}`);
+    part('text', {class: 'soft', x: 192, y: floor - 24}).append(`0 to ${short(supply_bar)} bar`);
+    this.bars = [
+      ['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']
+    ].map(([name, key], i) => {
+      const y = floor - 12 + 28 * i;
+      const label = part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'});
+      label.append(name);
+      const frame = part('rect', {class: 'frame', x: 192, y, width: 100, height: 16});
+      return {
+        key,
+        name: label,
+        frame,
+        bar: part('rect', {class: 'bar', x: 192, y, height: 16}),
+        text: part('text', {x: 298, y: y + 13})
+      };
+    });
+  }
+
+  draw(values) {
+    write(
+        this.current,
+        command.name in values ? `${fixed(values[command.name], 2)} ${command.unit}` : 'not used');
+    for (const {key, name, frame, bar, text} of this.bars) {
+      const absent = values[key] === undefined || values[key] === null;  // no gauge
+      for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';
+      if (absent) continue;
+      bar.setAttribute('width', Math.max(0, (100 * values[key]) / report.rig.supply_bar));
+      write(text, `${values[key].toFixed(2)} bar`);
+    }
+  }
+}
+
 class RigPicture {
   constructor(svg) {
     this.svg = svg;
@@ -128,29 +169,8 @@ class RigPicture {
     this.target = part('path', {class: 'target'});
     this.load = part('rect', {class: 'load', width: 88, height: 50, rx: 4});
     this.loadText = part('text', {class: 'load-text', 'text-anchor': 'middle'});
-    part('rect', {class: 'metal', x: 18, y: floor, width: 88, height: 56, rx: 4});
-    const {supply_bar} = report.rig, {zero, span, unit} = command;
-    part('text', {x: 62, y: floor + 22, 'text-anchor': 'middle'}).append('valve');
-    this.current = part('text', {x: 62, y: floor + 44, 'text-anchor': 'middle'});
-    part('text', {class: 'soft range', x: 62, y: floor + 73, 'text-anchor': 'middle'})
-        .append(`${short(zero)} to ${short(span)} ${unit}`);
-    part('text', {class: 'soft', x: 192, y: floor - 24}).append(`0 to ${short(supply_bar)} bar`);
+    this.valve = new ValvePicture(part, floor);
     if (report.rig.gauge) this.drawGauge(part);
-    this.bars = [
-      ['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']
-    ].map(([name, key], i) => {
-      const y = floor - 12 + 28 * i;
-      const label = part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'});
-      label.append(name);
-      const frame = part('rect', {class: 'frame', x: 192, y, width: 100, height: 16});
-      return {
-        key,
-        name: label,
-        frame,
-        bar: part('rect', {class: 'bar', x: 192, y, height: 16}),
-        text: part('text', {x: 298, y: y + 13})
-      };
-    });
     this.numbers = part('text', {x: 34, y: 20});
   }
 
@@ -187,16 +207,7 @@ class RigPicture {
         wanted === undefined || wanted === null ?
             '' :
             `M${x - 62} ${wheel.y + 140 - wanted * report.rig.rest_length_m * mm}h124`);
-    write(
-        this.current,
-        command.name in values ? `${fixed(values[command.name], 2)} ${command.unit}` : 'not used');
-    for (const {key, name, frame, bar, text} of this.bars) {
-      const absent = values[key] === undefined || values[key] === null;  // no gauge
-      for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';
-      if (absent) continue;
-      bar.setAttribute('width', Math.max(0, (100 * values[key]) / report.rig.supply_bar));
-      write(text, `${values[key].toFixed(2)} bar`);
-    }
+    this.valve.draw(values);
     this.muscle.fill(values.muscle_pressure ?? values.reference_pressure);
     write(
         this.numbers,

@@ -71,11 +71,31 @@ std::string link(const plant::Pair& pair) {
       pair.contraction_ratio, pair.opposite_contraction_ratio);
 }
 
-std::string encoder(const plant::Rig& rig, bool pair) {
+std::string lever(const plant::Lever& lever) {
+  const std::string pulled =
+      lever.by_points()
+          ? fmt::format("the cord pulls {} from the pivot, the muscle is fixed {} from it, {:.3g} deg apart",
+                        mm(lever.attached_m), mm(lever.base_m), lever.opening_rad / plant::degree_rad)
+          : fmt::format("the cord's arm is {}", mm(lever.arms.front().arm_m)) +
+                (lever.arms.size() > 1 ? " to " + mm(lever.arms.back().arm_m) : "");
+  std::string says =
+      fmt::format("{}; {} whose centre of mass is {} from the pivot; inertia {}; the load at {}", pulled,
+                  readable(lever.mass_kg, "kg"), mm(lever.centre_m), readable(lever.inertia_kg_m2, "kg.m2"),
+                  mm(lever.load_at_m));
+  if (lever.spring_N_m_per_rad > 0.0 || lever.spring_preload_N_m != 0.0)
+    says += "; a spring of " + readable(lever.spring_N_m_per_rad, "N.m/rad");
+  if (lever.plane == plant::Plane::horizontal) says += "; turns horizontally";
+  return says;
+}
+
+std::string encoder(const plant::Rig& rig) {
   const double height_m = plant::count_height_m(rig);
-  const std::string step = pair ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
-                                : readable(height_m, "m") + " of height";
-  return rig.sensors.position().counts_pulses() ? "on the wheel: a count is " + step : "in steps of " + step;
+  const std::string step = rig.has_angle()
+                               ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
+                               : readable(height_m, "m") + " of height";
+  return rig.sensors.position().counts_pulses()
+             ? (rig.lever() != nullptr ? "on the joint: a count is " : "on the wheel: a count is ") + step
+             : "in steps of " + step;
 }
 
 std::string in_words(std::string_view name) {
@@ -106,13 +126,16 @@ std::string rig_html(const Contents& contents) {
   part(pair != nullptr ? "muscle 1" : "muscle", muscle(rig.muscle));
   if (pair != nullptr) part("muscle 2", muscle(pair->opposite.muscle));
   if (pair != nullptr) part("link", link(*pair));
-  part("wheel", mm(rig.joint.wheel_radius_m) + " in radius" +
-                    (rig.joint.load_offset_kg == 0.0 ? ""
-                                                     : "; " + readable(rig.joint.load_offset_kg, "kg") +
-                                                           " hang on it in addition to the load") +
-                    spring(rig.joint));
+  if (rig.lever() != nullptr)
+    part("lever", lever(*rig.lever()));
+  else
+    part("wheel", mm(rig.joint.wheel_radius_m) + " in radius" +
+                      (rig.joint.load_offset_kg == 0.0 ? ""
+                                                       : "; " + readable(rig.joint.load_offset_kg, "kg") +
+                                                             " hang on it in addition to the load") +
+                      spring(rig.joint));
   html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", in_words(name_of(rig.sensors.position().kind)),
-                      text_html(encoder(rig, pair != nullptr), rig));
+                      text_html(encoder(rig), rig));
   part("valve", valve(rig.valve));
   part("hose", "sonic conductance " + readable(rig.hose.conductance_m3_per_s_Pa, "m3/(s.Pa)"));
   const plant::Sensor* gauge = rig.sensors.of(plant::Sensed::muscle_pressure);

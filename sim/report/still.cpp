@@ -24,7 +24,8 @@ std::string attribute(char name, const output::Scale& scale) {
 template <class Drawn>
 std::string in_units(const std::string& label, const plant::Rig& rig, const Drawn& drawn) {
   if (label != ratio_unit) return drawn(1.0, label);
-  return either(drawn(length_mm(rig), "height in mm"), drawn(1.0, label), "g");
+  return either(drawn(length_mm(rig), rig.has_angle() ? "shortening of the muscle in mm" : "height in mm"),
+                drawn(1.0, label), "g");
 }
 
 std::string floor_svg(const output::Panel& panel) {

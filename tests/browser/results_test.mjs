@@ -215,6 +215,33 @@ test('two muscles turn their joint as their CSV has it, and never to -0.0 degree
   await done();
 });
 
+test('a lever turns as it was measured, and its muscle is as long as its arm lets it be', async () => {
+  const {page, close: done, complaints, requests, url} = await open('lever');
+  const csv = table('lever/m1_up.csv');
+  const seen = [];
+  for (const k of [0, csv.time_s.length - 1]) {
+    await page.evaluate((t) => setTime(t), csv.time_s[k]);
+    const [angle, tube, line] = await page.evaluate(
+        () =>
+            [document.querySelector('#rig text.angle').textContent,
+             document.querySelector('#rig path.tube').dataset.length,
+             document.querySelector('#rig path.link').getAttribute('d'),
+    ]);
+    const degrees = (180 * csv.angle_rad[k]) / Math.PI;
+    assert.ok(Math.abs(Number(angle.match(/-?[0-9.]+/)[0]) - degrees) < 0.06, `${angle}, ${degrees}`);
+    const between = (theta) => Math.sqrt(0.3 ** 2 + 0.05 ** 2 - 2 * 0.3 * 0.05 * Math.cos(theta));
+    const opening = (150 * Math.PI) / 180;
+    const rise = between(opening) - between(opening - csv.angle_rad[k]);
+    assert.ok(Math.abs(Number(tube) - (0.3 - rise)) < 2e-5, `${tube} at ${angle}, rise ${rise}`);
+    seen.push(line);
+  }
+  assert.notEqual(seen[0], seen[1]);
+  assert.equal(await page.locator('#rig text.weight').textContent(), '2 kg');
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, [url]);
+  await done();
+});
+
 test('what was measured of two muscles is drawn with the pressures that are asked for', async () => {
   const {page, close: done, complaints, requests, url} = await open('joint');
   const csv = table('joint/against.csv');

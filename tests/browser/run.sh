@@ -35,5 +35,6 @@ END
 "$program" diagnose leaky --out "$folder/diagnosis" > /dev/null
 "$program" run "$here/../../scenarios/pair.yaml" --out "$folder/pair" > /dev/null
 "$program" dataset "$here/joint.yaml" --out "$folder/joint" > /dev/null
+"$program" dataset "$here/lever.yaml" --out "$folder/lever" > /dev/null
 "$program" replay leaky --rig diagnosis/rig.yaml --out "$folder/mended" > /dev/null
 node --test --test-reporter=spec report_test.mjs results_test.mjs
