@@ -98,7 +98,7 @@ std::vector<double> loads_kg(const domain::Dataset& data, const Rig& rig) {
     const bool known = std::any_of(kept.begin(), kept.end(), [&](double other) {
       return std::abs(load_kg / other - 1.0) < thresholds.plan.same_load;
     });
-    if (load_kg < most_kg && !known) kept.push_back(load_kg);
+    if (rig.pulled_kg(load_kg) < most_kg && !known) kept.push_back(load_kg);
   }
   return kept;
 }

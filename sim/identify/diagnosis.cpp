@@ -233,7 +233,9 @@ class HandingOver {
 
   /// What would separate the chosen model from the best that does as well.
   void plan_next() {
-    if (data_.runs.front().current_mA.empty() || data_.judged() != domain::Judged::contraction)
+    const domain::Judged judged = data_.judged();
+    if (data_.runs.front().current_mA.empty() || !data_.rig.lifts_a_load() ||
+        (judged != domain::Judged::contraction && judged != domain::Judged::angle))
       return;  // no currents, loads
     const Model* rival = doubt(found_);
     if (rival == nullptr || chosen().general || found_.ended != Ended::no) return;

@@ -211,7 +211,7 @@ std::string what_next(const diagnose::Diagnosis& diagnosis) {
         floors);
   const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
                                  [](const auto& effect) { return !effect.confusable_with.empty(); });
-  if (diagnosis.verdict == missing_effect && twins && diagnosis.gap.judged == diagnose::Judged::angle)
+  if (diagnosis.verdict == missing_effect && twins && diagnosis.corrected.pair() != nullptr)
     return "No measurement of a joint's angle is planned that would distinguish these names.";
   if (diagnosis.verdict == missing_effect)
     return twins ? "No current that was tried would distinguish these names."

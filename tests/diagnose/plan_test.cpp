@@ -1,4 +1,6 @@
 // The next measurement: the one of a menu that most probably ends a doubt, if any may.
+#include <mutex>
+#include <set>
 #include <variant>
 
 #include <gtest/gtest.h>
@@ -28,6 +30,25 @@ TEST(Plan, TakesTheMeasurementOfTheHighestPower) {
   EXPECT_TRUE(std::visit([&](const auto& waveform) { return std::string(waveform.kind) == found->waveform; },
                          found->measurement.current.value()));
   EXPECT_DOUBLE_EQ(found->measurement.duration_s, 10.0);
+}
+
+TEST(Plan, ALeverLiftsWhatItsArmLetsItsMuscleLift) {
+  plant::Rig rig;
+  rig.mechanics = plant::Lever{};
+  rig.joint.lowest_rad = 0.0, rig.joint.highest_rad = 100.0 * plant::degree_rad;
+  const domain::Dataset data = planted(rig, {12.0}, {three_kinds()[0]}, 1, rig);
+  ASSERT_FALSE(data.runs[0].angle_rad.empty());
+  Rig rougher = data.rig;
+  rougher.friction.scale = 1.2;
+  std::mutex one_by_one;
+  std::set<double> loads_kg;
+  const auto found = plan(data, 2, data.rig, rougher, {"a", "b"}, [&](const domain::Run& run) {
+    const std::scoped_lock lock(one_by_one);
+    loads_kg.insert(run.load_kg);
+    return 0.5;
+  });
+  ASSERT_TRUE(found);
+  EXPECT_EQ(loads_kg, (std::set{6.0, 12.0}));  // 15.6 kg pull like 110 kg at the cord
 }
 
 TEST(Plan, PromisesNothingBelowATenth) {
