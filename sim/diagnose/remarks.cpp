@@ -96,9 +96,7 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         "through for faults of a recorder, no further measurement is planned, and a load's guide there is "
         "none");
   if (data.rig.lever() != nullptr)
-    words.push_back(
-        "the angle of a lever is read: runs are not looked through for faults of a recorder, and no further "
-        "measurement is planned");
+    words.push_back("the angle of a lever is read: runs are not looked through for faults of a recorder");
   if (data.pressure_is_given())
     words.push_back(fmt::format(
         "the muscle{} the input: valve, supply, hose and gas are out of sight, and with them {}",

@@ -133,7 +133,8 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
       entries.push_back(entry_of(c, described_));
     else if (const auto law = whole(c, all); law && law->fits(described_))
       entries.push_back(entry_of(*law, described_));
-  if (data.judged() == domain::Judged::contraction)
+  const bool of_a_lever = data.judged() == domain::Judged::angle && data.rig.lifts_a_load();
+  if (data.judged() == domain::Judged::contraction || of_a_lever)
     for (const BenchNumber& number : bench_numbers)
       entries.push_back({.name = std::string(number.name),
                          .bench = &number,

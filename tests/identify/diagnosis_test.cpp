@@ -139,6 +139,22 @@ TEST(HandedOver, AFaultOfTheBenchFirstWithTheLinesThatMendIt) {
   EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
 }
 
+TEST(HandedOver, LoadsOfALeverThatWereAllWrittenTooHeavy) {
+  plant::Rig rig;
+  rig.mechanics = plant::Lever{};
+  rig.joint.lowest_rad = 0.0, rig.joint.highest_rad = 100.0 * plant::degree_rad;
+  auto currents = diagnose::three_kinds();
+  currents.pop_back();
+  domain::Dataset data = diagnose::planted(rig, {2.0, 4.0, 7.0}, currents, 7, rig);
+  for (domain::Run& run : data.runs) run.load_kg += 1.0;
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 1U) << found.because;
+  EXPECT_EQ(found.bench[0].name, "load_label");
+  EXPECT_NEAR(found.bench[0].size.value, -1.0, 0.02);
+  EXPECT_TRUE(found.effects.empty());
+  EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
+}
+
 TEST(HandedOver, WhichRunHasAnotherLoadAndWhichItIs) {
   domain::Dataset data = diagnose::small({});
   data.runs[2].load_kg += 2.0;
