@@ -234,10 +234,13 @@ std::string verdict_in_words(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::nothing_missing:
       return fmt::format(
-          "{} to within noise: on runs held out {} differs by {}, and neither other values of "
+          "{} to within noise{}: on runs held out {} differs by {}, and neither other values of "
           "the nominal parameters nor any effect of the catalogue makes that clearly less.",
           d.faults.empty() && d.bench.empty() ? "Model and data agree"
                                               : "Apart from that model and data agree",
+          d.gap.floors_left() > thresholds.start.explained_floors
+              ? ", the wander of the input and the ± of the parameters"
+              : "",
           what_is_judged(d), amount_in_words(d, d.bench.empty() ? d.gap.nominal_rmse : d.gap.corrected_rmse));
     case Verdict::recalibrate:
       return numbers_in_words(d);

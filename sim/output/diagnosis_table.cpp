@@ -109,8 +109,7 @@ std::string twins(const Diagnosis& diagnosis) {
 
 std::string next(const Diagnosis& diagnosis) {
   if (!diagnosis.next_experiment) {
-    const bool unexplained = diagnosis.gap.floors_left() > diagnose::thresholds.start.explained_floors;
-    return unexplained ? "  " + what_next(diagnosis) + "\n" : "";
+    return is_unexplained(diagnosis) ? "  " + what_next(diagnosis) + "\n" : "";
   }
   const auto& next = *diagnosis.next_experiment;
   return fmt::format("  {}, with {}: separates {} with a probability of {:.0f} %\n", next.current,

@@ -197,18 +197,22 @@ std::string explained_by(const diagnose::Explanation& explanation) {
   return fmt::format("{}", fmt::join(explanation.effects, " with "));
 }
 
+bool is_unexplained(const diagnose::Diagnosis& diagnosis) {
+  return diagnosis.verdict != diagnose::Verdict::nothing_missing &&
+         diagnosis.gap.floors_left() > diagnose::thresholds.start.explained_floors;
+}
+
 std::string what_next(const diagnose::Diagnosis& diagnosis) {
   using enum diagnose::Verdict;
   if (diagnosis.ended != diagnose::Ended::no)
     return "The search was stopped: let it finish before anything else is measured.";
-  const double floors = diagnosis.gap.floors_left();
-  if (floors > diagnose::thresholds.start.explained_floors)
+  if (is_unexplained(diagnosis))
     return fmt::format(
         "On the runs held out {:.1f} times the noise floor remains, so something is still unexplained. "
         "Measure "
         "one of the runs again: what two equal runs differ by is noise, "
         "what is left beyond it is not in the rig.",
-        floors);
+        diagnosis.gap.floors_left());
   const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
                                  [](const auto& effect) { return !effect.confusable_with.empty(); });
   if (diagnosis.verdict == missing_effect && twins && diagnosis.corrected.pair() != nullptr)

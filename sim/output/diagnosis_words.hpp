@@ -61,6 +61,9 @@ using diagnose::full_name;
 /// than they are stated to be".
 std::string explained_by(const diagnose::Explanation& explanation);
 
+/// Whether more is left than noise and what the verdict is about.
+bool is_unexplained(const diagnose::Diagnosis& diagnosis);
+
 /// What to do where no measurement is proposed; empty if there is nothing to say. Nobody is told that no more
 /// is needed while noise floors remain unexplained.
 std::string what_next(const diagnose::Diagnosis& diagnosis);
