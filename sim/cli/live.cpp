@@ -1,4 +1,5 @@
 // The verb `live`: a rig in the browser, moved by hand in real time.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -29,9 +30,13 @@ struct LiveOptions : Options {
 
 /// One that the muscle lifts about halfway: by its force at full pressure, in two digits.
 double usual_load_kg(const plant::Rig& rig) {
-  constexpr double share = 0.13;
+  constexpr double share = 0.13, least_kg = 0.1;
   const double most_N = plant::Braid(rig.muscle).largest_force_N(rig.valve.span_pressure_Pa);
-  const double kg = share * most_N / plant::gravity_m_per_s2;
+  double kg = share * most_N / plant::gravity_m_per_s2;
+  if (rig.lever() != nullptr) {  // what pulls at its muscle goes straight with the load
+    const double none_kg = rig.pulled_kg(0.0);
+    kg = std::max(least_kg, (kg - none_kg) / (rig.pulled_kg(1.0) - none_kg));
+  }
   const double digit = std::pow(10.0, std::floor(std::log10(kg)) - 1.0);
   return std::round(kg / digit) * digit;
 }
@@ -53,6 +58,9 @@ int show_live(const LiveOptions& options) {
   const fs::path where = destination(options, name + "-live");
   keep_apart(where, inputs);
   live::Host host(rig, load_kg, live::DataSets(where, "live " + options.rig + " " + live::new_token(), say));
+  live::Sweep slow{.low_mA = rig.valve.zero_command};
+  slow.high_mA = std::min(rig.valve.span_command, rig.dac.largest_command);
+  host.obey(slow);  // the page opens moving
   const live::Server server(host, live::page_of(name, rig, live::Session(rig, load_kg)), options.port);
   const input::Json document{{"schema", "mckibben-live/1"}, {"address", server.address()}};
   print(options, {document.dump(2) + "\n", server.address() + "\n"});

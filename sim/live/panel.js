@@ -90,7 +90,46 @@ function dialOf(one, which, label) {
   return make('div', {class: 'dial'}, make('span', {}, label), input, make('output', {'data-says': which}));
 }
 
+/** As words: "muscle leak", "bladder elasticity linear". */
+const inWords = (name) => name.replaceAll('_', ' ');
+
+/** For lessons: one that is on and not shown to be, at up to twice its size at first. Its name, or null. */
+let hidden = null;
+function hideOne() {
+  const off = live.state.effects.filter(({on}) => !on);
+  const {name, size, shape} = off[Math.floor(Math.random() * off.length)];
+  const {size: dial} = report.switches.find((one) => one.name === name);
+  const times = 1 + Math.random();
+  for (const one of live.state.effects)
+    if (one.on) setEffect(one.name, false, one.size, one.shape);
+  hidden = name;
+  setEffect(name, true, Math.min(dial.most, Math.max(dial.least, times * size)), shape);
+  say('One effect is at work. Move the rig, look at the loops, and choose which one it is.');
+  showHidden();
+}
+function showHidden() {
+  byId('hide').hidden = hidden !== null;
+  byId('all-off').disabled = hidden !== null;
+  byId('guess-line').hidden = byId('give-up').hidden = hidden === null;
+  byId('guess').value = '';
+  showSwitches(live.state.effects);
+}
+function guess(name) {
+  if (name === '') return;
+  if (name !== hidden) return say(`It is not ${inWords(name)}.`);
+  reveal('Right: ');
+}
+function reveal(before) {
+  const {says} = effectOf(hidden);
+  say(`${before}${inWords(hidden)}, ${says}.`);
+  hidden = null;
+  showHidden();
+}
+
 function makeSwitches() {
+  byId('guess').replaceChildren(
+      make('option', {value: ''}, '-'),
+      ...report.switches.map(({name}) => make('option', {value: name}, inWords(name))));
   byId('switches').replaceChildren(...report.switches.map((one) => {
     const tick = make('input', {type: 'checkbox'});
     tick.addEventListener('change', () => {
@@ -102,16 +141,18 @@ function makeSwitches() {
         ...(one.shape ? [dialOf(one, 'shape', 'shape')] : []));
     return make(
         'div', {class: 'switch', 'data-effect': one.name, title: one.law},
-        make('label', {class: 'name'}, tick, one.name), make('p', {}, one.says), dials);
+        make('label', {class: 'name'}, tick, inWords(one.name)), make('p', {}, one.says), dials);
   }));
 }
 
 function showSwitches(effects) {
   for (const now of effects) {
     const row = document.querySelector(`.switch[data-effect='${now.name}']`);
-    row.classList.toggle('on', now.on);
-    row.querySelector('input[type=checkbox]').checked = now.on;
-    row.lastElementChild.hidden = !now.on;
+    const on = now.on && now.name !== hidden;
+    row.classList.toggle('on', on);
+    row.querySelector('input[type=checkbox]').checked = on;
+    row.querySelector('input[type=checkbox]').disabled = hidden !== null;
+    row.lastElementChild.hidden = !on;
     for (const which of ['size', 'shape']) {
       const dial = row.querySelector(`[data-dial=${which}]`);
       if (!dial) continue;
@@ -137,7 +178,7 @@ function showState(state) {
     button.setAttribute('aria-pressed', button.dataset.sweep === (state.sweep?.shape ?? ''));
   for (const id of pair ? [] : ['load', 'load-number'])
     if (!inUse(byId(id))) byId(id).value = state.load_kg;
-  if (!state.sweep && !before) showCurrents(state.wanted);
+  if (!state.sweep && (!before || before.sweep)) showCurrents(state.wanted);
   byId('pause').textContent = state.running ? 'Pause' : 'Go on';
   byId('pace').hidden = state.pace > 0.9;
   byId('pace').textContent = `This machine makes ${state.pace.toFixed(2)} s of a second.`;
@@ -190,6 +231,9 @@ function prepareControls() {
       () =>
           ask('record',
               live.state.recording ? {do: 'stop'} : {do: 'record', from_rest: byId('from-rest').checked}));
+  byId('hide').addEventListener('click', hideOne);
+  byId('guess').addEventListener('change', () => guess(byId('guess').value));
+  byId('give-up').addEventListener('click', () => reveal('It was '));
   byId('all-off').addEventListener('click', () => {
     for (const one of live.state.effects)
       if (one.on) setEffect(one.name, false, one.size, one.shape);

@@ -92,21 +92,21 @@ const timePlots = pair ? pairTimePlots : singleTimePlots;
 /** Differences are those of muscle 1 less muscle 2. */
 const pairLoopPlots = [
   {
-    title: 'Difference of commanded pressures, and counted angle',
+    title: 'Counted angle over the difference of commanded pressures',
     x: 'reference_pressure_1 - reference_pressure_2',
     y: read
   },
-  {title: 'Angle and difference of pressures', x: 'angle', y: 'muscle_pressure_1 - muscle_pressure_2'},
-  {title: 'Angle and difference of forces', x: 'angle', y: 'tension_1 - tension_2'},
+  {title: 'Difference of pressures over the angle', x: 'angle', y: 'muscle_pressure_1 - muscle_pressure_2'},
+  {title: 'Difference of forces over the angle', x: 'angle', y: 'tension_1 - tension_2'},
 ];
 const singleLoopPlots = [
   {
-    title: `Commanded pressure, and counted ${turns ? 'angle' : 'contraction'}`,
+    title: `Counted ${turns ? 'angle' : 'contraction'} over commanded pressure`,
     x: 'reference_pressure',
     y: read
   },
-  {title: 'Contraction and pressure of the muscle', x: 'contraction_ratio', y: 'muscle_pressure'},
-  {title: 'Contraction and force of the braid', x: 'contraction_ratio', y: 'braid_force'},
+  {title: 'Pressure of the muscle over its contraction', x: 'contraction_ratio', y: 'muscle_pressure'},
+  {title: 'Force of the braid over the contraction', x: 'contraction_ratio', y: 'braid_force'},
 ];
 const loopPlots = pair ? pairLoopPlots : singleLoopPlots;
 const unitOfAxis = (name) => unitOf[name.split(' - ')[0]];
@@ -202,7 +202,7 @@ function trace(dot) {
 class LoopPlot extends Cell {
   constructor(plot, before) {
     const x = shownAs(unitOfAxis(plot.x)), y = shownAs(unitOfAxis(plot.y));
-    super(byId('loops'), plot.title, `${x.unit}, ${y.unit}`, []);
+    super(byId('loops'), plot.title, `${y.unit} over ${x.unit}`, []);
     Object.assign(this, {names: [plot.x, plot.y], factors: [x.factor, y.factor], ghost: before ?? [[], []]});
     const facets = [{scale: 'x', auto: true}, {scale: 'y', auto: true}];
     const range = (_, low, high) => roundEnds(low, high);

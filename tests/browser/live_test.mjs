@@ -46,7 +46,7 @@ test('the slider lifts the load, and the picture and the plots follow', async ()
   await page.locator('#current-1').focus();
   await page.keyboard.press('End');  // 20 mA, by the keyboard
   await until(page, (from) => samples.at(samples.newest()).contraction_ratio > from + 0.05, low);
-  assert.equal(await page.inputValue('#current-1-number'), '20');
+  await until(page, () => document.getElementById('current-1-number').value === '20.00');
   await until(page, () => Number(document.querySelector('#rig path.tube').dataset.length) < 0.28);
   await until(page, () => timed[0].chart.data[1].some((mm) => mm > 30));
   await until(page, () => loops[1].values[0].length > 10);
@@ -88,6 +88,29 @@ test('a lighter load rises, an effect is switched and sized, both leave a grey l
   await end();
 });
 
+test('it opens moving, and an effect that is hidden is found by a guess', async () => {
+  const game = await started('thesis', '--out', 'live/game');
+  const {page, end} = await live({}, game);
+  assert.equal(await page.getAttribute('[data-sweep=\'sine\']', 'aria-pressed'), 'true');
+  await until(page, () => samples.newest() > 1);
+  await page.locator('#hide').click();
+  await until(page, () => live.state.effects.filter(({on}) => on).length === 1);
+  assert.equal(await page.locator('.switch input:checked').count(), 0);
+  assert.equal(await page.locator('.switch.on').count(), 0);
+  const [right, wrong] = await page.evaluate(() => {
+    const at = live.state.effects.findIndex(({on}) => on), {length} = live.state.effects;
+    return [live.state.effects[at].name, live.state.effects[(at + 1) % length].name];
+  });
+  await page.selectOption('#guess', wrong);
+  assert.equal(await page.textContent('#message'), `It is not ${wrong.replaceAll('_', ' ')}.`);
+  await page.selectOption('#guess', right);
+  assert.match(
+      await page.textContent('#message'), new RegExp(`^Right: ${right.replaceAll('_', ' ')}, .*[0-9]`));
+  assert.equal(await page.locator('.switch.on').getAttribute('data-effect'), right);
+  await end();
+  game.program.kill('SIGINT');
+});
+
 test('pause by the space bar, begin again, and a recording that replays', async () => {
   const {page, end} = await live();
   await page.locator('h1').click();
@@ -112,6 +135,7 @@ test('pause by the space bar, begin again, and a recording that replays', async 
 
 test('two muscles have a slider each, and sweeps against each other', async () => {
   const {page, end} = await live({}, two);
+  await page.fill('#current-1-number', '4');
   await page.fill('#current-2-number', '14');
   await until(page, () => samples.at(samples.newest()).angle < -5);
   await until(page, () => Math.abs(document.querySelector('#rig .load').getAttribute('cx') - 420) > 5);
