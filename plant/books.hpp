@@ -10,16 +10,17 @@ template <int sides, class S>
 Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
                                    const Ledger<P>& books) const {
   const S& v = now.speed_m_per_s;
+  const S joint_m_per_s = side_.braid().rest_length_m() * state.joint.contraction_speed_per_s;
   const S none = S(0.0);
   Ledger<S> rates{now.supply_flow,
                   now.vent_flow,
                   now.leak_flow,
                   S(now.braid_force_N * v),
                   S(-now.friction_force_N * v),
-                  S(-now.guide_force_N * v),
-                  S((now.stop_force_N + now.joint_stop_force_N) * v),
+                  S(-now.guide_force_N * joint_m_per_s),
+                  S(now.stop_force_N * v + now.joint_stop_force_N * joint_m_per_s),
                   S(now.effects_pull_N * v),
-                  S(now.bench_force_N * v),
+                  S(now.bench_force_N * joint_m_per_s),
                   none,
                   none,
                   none,
@@ -27,6 +28,10 @@ Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
                   none,
                   none,
                   none};
+  if (side_.stretches()) {
+    rates.guide_work_J = rates.guide_work_J + now.cord_lost_W;
+    rates.effects_work_J = rates.effects_work_J + now.pull_on_load_N * (joint_m_per_s - v);
+  }
   if constexpr (sides == 2) {
     const SideMoment<S>& other = now.opposite;
     const S& u = other.speed_m_per_s;
@@ -37,15 +42,20 @@ Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
     rates.thread_friction_work_J = rates.thread_friction_work_J - other.friction_force_N * u;
     rates.stop_work_J = rates.stop_work_J + other.stop_force_N * u;
     rates.effects_work_J = rates.effects_work_J + other.effects_pull_N * u;
+    if (opposite_->stretches()) {
+      const S end_m_per_s = opposite_->braid().rest_length_m() * opposite_stroke(state).speed_per_s;
+      rates.guide_work_J = rates.guide_work_J + other.cord_lost_W;
+      rates.effects_work_J = rates.effects_work_J + other.pull_on_load_N * (end_m_per_s - u);
+    }
   }
   if (polytropic_) {
     rates.air_drawn_kg = rates.air_vented_kg = rates.air_leaked_kg = none;
-    books_of_gas({state.joint.contraction_ratio, state.joint.contraction_speed_per_s}, side_, state.side, now,
-                 books.valve_air_kg, books.muscle_air_kg, rates, rates.valve_air_kg, rates.muscle_air_kg);
+    books_of_gas(side_, state.side, now, books.valve_air_kg, books.muscle_air_kg, rates, rates.valve_air_kg,
+                 rates.muscle_air_kg);
     if constexpr (sides == 2)
-      books_of_gas(opposite_stroke(state), *opposite_, state.opposite, now.opposite,
-                   books.opposite_valve_air_kg, books.opposite_muscle_air_kg, rates,
-                   rates.opposite_valve_air_kg, rates.opposite_muscle_air_kg);
+      books_of_gas(*opposite_, state.opposite, now.opposite, books.opposite_valve_air_kg,
+                   books.opposite_muscle_air_kg, rates, rates.opposite_valve_air_kg,
+                   rates.opposite_muscle_air_kg);
   }
   return rates;
 }
@@ -55,9 +65,9 @@ Ledger<S> PlantOf<P>::ledger_rates(const State<S>& state, const Moment<S>& now,
 // p V = m R T_gas. Else q is the mass.
 template <class P>
 template <class S>
-void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, const SideState<S>& state,
-                              const SideMoment<S>& now, const P& valve_air_kg, const P& muscle_air_kg,
-                              Ledger<S>& rates, S& valve_rate, S& muscle_rate) const {
+void PlantOf<P>::books_of_gas(const SideOf<P>& side, const SideState<S>& state, const SideMoment<S>& now,
+                              const P& valve_air_kg, const P& muscle_air_kg, Ledger<S>& rates, S& valve_rate,
+                              S& muscle_rate) const {
   const P &atmosphere = side.rig().gas.atmosphere_Pa, &RT = side.gas_energy_J_per_kg();
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
   S in_valve = S(1.0), in_muscle = S(1.0);  // T/T_gas
@@ -79,7 +89,7 @@ void PlantOf<P>::books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, co
   valve_rate = drawn - vented - through_hose;
   muscle_rate = through_hose - leaked;
   rates.air_inflow_J = rates.air_inflow_J + RT * (now.supply_flow - now.vent_flow - now.leak_flow);
-  rates.gas_work_J = rates.gas_work_J + muscle_Pa * now.volume_slope_m3 * stroke.speed_per_s;
+  rates.gas_work_J = rates.gas_work_J + muscle_Pa * now.volume_slope_m3 * now.stroke.speed_per_s;
   rates.gas_heat_J = rates.gas_heat_J + now.volume_m3 * now.heating_Pa_per_s;
 }
 

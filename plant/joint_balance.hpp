@@ -10,10 +10,10 @@ namespace mckibben::plant {
 // inertia by the square of that, which changes as it turns.
 template <class P>
 template <class S>
-void PlantOf<P>::lever_balance(const Stand<S>& stand, const S& outer_N, Moment<S>& now, S& others,
+void PlantOf<P>::lever_balance(const Stand<S>& stand, const S& v, const S& outer_N, Moment<S>& now, S& others,
                                S& mass_kg) const {
   using std::sin;
-  const S &arm_m = stand.arm_m, &v = now.speed_m_per_s;
+  const S& arm_m = stand.arm_m;
   const S lever_kg = inertia_kg_m2_ / (arm_m * arm_m);
   now.guide_force_N = -lever_->damping_N_m_s_per_rad * v / (arm_m * arm_m);
   if (springs_) now.spring_force_N = -lever_->spring().pull(stand.angle_rad) / arm_m;
@@ -37,14 +37,18 @@ template <int sides, class S, class H>
 void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<H>& held, Moment<S>& now) const {
   using std::sin;
   const bool turns = sides == 1 && lever_.has_value();
-  now.guide_force_N = -damping_N_s_per_m_ * now.speed_m_per_s;
+  const S v = side_.braid().rest_length_m() * state.joint.contraction_speed_per_s;
+  now.guide_force_N = -damping_N_s_per_m_ * v;
   S others = now.braid_force_N + now.stop_force_N + now.guide_force_N - hanging_N_ + now.effects_pull_N;
+  if (side_.stretches())
+    others = side_.where_it_stretches(
+        S(now.stretched_N + now.pull_on_load_N + now.guide_force_N - hanging_N_), others);
   S mass_kg = S(mass_kg_), outer_N = S(held.joint_force_N);
   if (!turns) others = others - held.joint_force_N;
   now.spring_force_N = now.joint_stop_force_N = S(0.0);
   if (turns) {
     const Stand<S> stand = turning_->at(rise_m(state.joint.contraction_ratio));
-    lever_balance(stand, outer_N, now, others, mass_kg);
+    lever_balance(stand, v, outer_N, now, others, mass_kg);
     outer_N = outer_N * (radius_m_ / stand.arm_m);
   } else if (springs_) {
     now.spring_force_N = spring_force_N(state.joint.contraction_ratio);
@@ -54,11 +58,15 @@ void PlantOf<P>::joint_balance(const State<S>& state, const HeldOf<H>& held, Mom
     const S lean = (state.joint.contraction_ratio - link_.contraction_ratio) *
                        (side_.braid().rest_length_m() / radius_m_) -
                    link_.hangs_at_rad;
-    others = others - now.opposite.braid_force_N - now.opposite.stop_force_N - now.opposite.effects_pull_N -
-             link_.mass_kg * gravity_m_per_s2 * link_.length_m / radius_m_ * sin(lean);
+    const SideMoment<S>& other = now.opposite;
+    const S rigid_N = others - other.braid_force_N - other.stop_force_N - other.effects_pull_N;
+    others = opposite_->stretches() ? opposite_->where_it_stretches(
+                                          S(others - other.stretched_N - other.pull_on_load_N), rigid_N)
+                                    : rigid_N;
+    others = others - link_.mass_kg * gravity_m_per_s2 * link_.length_m / radius_m_ * sin(lean);
   }
   if (stops_) {
-    now.joint_stop_force_N = joint_stop_force_N(rise_m(state.joint.contraction_ratio), now.speed_m_per_s);
+    now.joint_stop_force_N = joint_stop_force_N(rise_m(state.joint.contraction_ratio), v);
     others = others + now.joint_stop_force_N;
   }
   if (has_events()) {  // the joint sticks or slips as a whole, the opposite threads the other way

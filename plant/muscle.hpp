@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <plant/constants.hpp>
+#include <plant/cord.hpp>
 
 namespace mckibben::plant {
 
@@ -51,6 +52,7 @@ struct MuscleOf {
   P stop_stiffness_N_per_m = 3.0e5;
   P stop_damping_s_per_m = 19.0;
   ContactSurface contact_surface = ContactSurface::squared;
+  CordOf<P> cord;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
@@ -68,6 +70,7 @@ struct MuscleOf {
     visit("stop_damping", self.stop_damping_s_per_m, "s/m", 0.0, 1e3,
           "taut threads: Hunt-Crossley damping chi");
     visit("contact_surface", self.contact_surface, "cos^2 (geometry) or cos (as the thesis prints 4.3)");
+    visit("cord", self.cord, "between muscle and joint, where it stretches; of all muscles side by side");
   }
   template <class Report>
   void rules(Report& report) const {

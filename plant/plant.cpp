@@ -66,39 +66,44 @@ std::string_view PlantOf<P>::law_without_number(const State<double>& state) cons
 }
 
 template <class P>
-double PlantOf<P>::gas_mass_kg(const State<double>& state) const {
-  const double one_kg = side_.air_kg(state.joint.contraction_ratio, state.side);
-  return opposite_ ? one_kg + opposite_->air_kg(opposite_stroke(state).contraction_ratio, state.opposite)
+double PlantOf<P>::gas_mass_kg(const State<double>& state, const Memory<double>& memory) const {
+  const double one_kg = side_.air_kg(joint_stroke(state), state.side, memory.side);
+  return opposite_ ? one_kg + opposite_->air_kg(opposite_stroke(state), state.opposite, memory.opposite)
                    : one_kg;
 }
 
 template <class P>
-double PlantOf<P>::mechanical_energy_J(const State<double>& state) const {
+double PlantOf<P>::mechanical_energy_J(const State<double>& state, const Memory<double>& memory) const {
+  const auto cord_J = [](const SideOf<P>& side, const SideMemory<double>& of) {
+    return side.rig().muscle.cord.energy_J(of[cord_stretch], of[cord_end_speed]);
+  };
+  double cords_J = cord_J(side_, memory.side);
+  if (opposite_) cords_J += cord_J(*opposite_, memory.opposite);
   const double length = side_.braid().rest_length_m();
   const double speed = length * state.joint.contraction_speed_per_s;
   const double rise = rise_m(state.joint.contraction_ratio);
   if (lever_) {
     const Stand<double> stand = turning_->at(rise);
     const double turning = speed / stand.arm_m;
-    return 0.5 * (mass_kg_ * speed * speed + inertia_kg_m2_ * turning * turning) +
+    return cords_J + 0.5 * (mass_kg_ * speed * speed + inertia_kg_m2_ * turning * turning) +
            lever_->spring().energy_J(stand.angle_rad) +
            weight_moment_N_m_ * (1.0 - std::cos(stand.angle_rad - lever_->hangs_at_rad));
   }
-  const double moving_J = 0.5 * mass_kg_ * speed * speed + rig().joint.spring_energy_J(rise);
+  const double moving_J = cords_J + 0.5 * mass_kg_ * speed * speed + rig().joint.spring_energy_J(rise);
   if (!opposite_) return moving_J + weight_N() * length * state.joint.contraction_ratio;
   const double lean_rad = angle_rad(state.joint.contraction_ratio) - link_.hangs_at_rad;
   return moving_J + link_.mass_kg * gravity_m_per_s2 * link_.length_m * (1.0 - std::cos(lean_rad));
 }
 
 template <class P>
-Ledger<double> PlantOf<P>::opened(const State<double>& state) const {
+Ledger<double> PlantOf<P>::opened(const State<double>& state, const Memory<double>& memory) const {
   Ledger<double> books{};
   books.valve_air_kg = side_.valve_air_kg(state.side);
-  books.muscle_air_kg = side_.air_kg(state.joint.contraction_ratio, state.side) - books.valve_air_kg;
+  books.muscle_air_kg = side_.air_kg(joint_stroke(state), state.side, memory.side) - books.valve_air_kg;
   if (opposite_) {
     books.opposite_valve_air_kg = opposite_->valve_air_kg(state.opposite);
     books.opposite_muscle_air_kg =
-        opposite_->air_kg(opposite_stroke(state).contraction_ratio, state.opposite) -
+        opposite_->air_kg(opposite_stroke(state), state.opposite, memory.opposite) -
         books.opposite_valve_air_kg;
   }
   return books;
@@ -106,17 +111,19 @@ Ledger<double> PlantOf<P>::opened(const State<double>& state) const {
 
 template <class P>
 Imbalance PlantOf<P>::imbalance(const State<double>& from, const State<double>& to,
-                                const Ledger<double>& books) const {
-  const double first_kg = gas_mass_kg(from), all_kg = first_kg + books.air_drawn_kg;
+                                const Ledger<double>& books, const Memory<double>& memory_from,
+                                const Memory<double>& memory_to) const {
+  const double first_kg = gas_mass_kg(from, memory_from), last_kg = gas_mass_kg(to, memory_to);
+  const double all_kg = first_kg + books.air_drawn_kg;
   const double net_kg = books.air_drawn_kg - books.air_vented_kg - books.air_leaked_kg;
-  double lost_kg = net_kg - (gas_mass_kg(to) - first_kg);
+  double lost_kg = net_kg - (last_kg - first_kg);
   if (polytropic_) {
     // p V changes by n R T of what flows in, by (1 - n) of the work done and by what the muscle's temperature
     // adds; what flows is mass as well.
     const double n = rig().effects.gas_exponent();
     lost_kg = (n * books.air_inflow_J - (n - 1.0) * books.gas_work_J + books.gas_heat_J) /
                   side_.gas_energy_J_per_kg() -
-              (gas_mass_kg(to) - first_kg);
+              (last_kg - first_kg);
     const double missing_kg =
         net_kg - (books.valve_air_kg + books.muscle_air_kg + books.opposite_valve_air_kg +
                   books.opposite_muscle_air_kg - first_kg);
@@ -125,7 +132,7 @@ Imbalance PlantOf<P>::imbalance(const State<double>& from, const State<double>& 
 
   const double lost_J = books.braid_work_J + books.stop_work_J + books.effects_work_J -
                         books.thread_friction_work_J - books.guide_work_J + books.bench_work_J -
-                        (mechanical_energy_J(to) - mechanical_energy_J(from));
+                        (mechanical_energy_J(to, memory_to) - mechanical_energy_J(from, memory_from));
   // A load that hardly moved did no work to speak of: count at least that of a hundredth of the length.
   const double hanging_N = opposite_ ? link_.mass_kg * gravity_m_per_s2
                            : lever_  ? weight_moment_N_m_ / turning_->at(0.0).arm_m

@@ -91,22 +91,22 @@ class PlantOf {
     return opposite_ ? ledger_rates<2>(state, now, books) : ledger_rates<1>(state, now, books);
   }
   /// A ledger as it is opened: nothing has come or gone, and all gas has the walls' temperature.
-  Ledger<double> opened(const State<double>& state) const;
+  Ledger<double> opened(const State<double>& state, const Memory<double>& memory = {}) const;
 
   /// Whether every law is defined here: finite, braid neither folded nor torn, pressures above vacuum.
   template <int sides>
-  auto in_domain(const State<P>& state) const {
+  auto in_domain(const State<P>& state, const Memory<P>& memory) const {
     using std::isfinite;
     const auto one = isfinite(state.joint.contraction_speed_per_s) &&
-                     side_.in_domain(state.joint.contraction_ratio, state.side);
+                     side_.in_domain(joint_stroke(state), state.side, memory.side);
     if constexpr (sides == 1)
       return turning_ ? decltype(one)(one && turning_->in_domain(rise_m(state.joint.contraction_ratio)))
                       : one;
     else
-      return one && opposite_->in_domain(opposite_stroke(state).contraction_ratio, state.opposite);
+      return one && opposite_->in_domain(opposite_stroke(state), state.opposite, memory.opposite);
   }
-  auto in_domain(const State<P>& state) const {
-    return opposite_ ? in_domain<2>(state) : in_domain<1>(state);
+  auto in_domain(const State<P>& state, const Memory<P>& memory = {}) const {
+    return opposite_ ? in_domain<2>(state, memory) : in_domain<1>(state, memory);
   }
 
   /// Whether something has a memory: an effect that is on, or a regulator.
@@ -178,7 +178,11 @@ class PlantOf {
     const double rise = lever_ ? turning_->rise_m(angle_rad) : radius_m_ * angle_rad;
     return mounted_ + rise / side_.braid().rest_length_m();
   }
-  /// Where the opposite cord's end is.
+  /// Where the joint has the cord's end, and the opposite one's.
+  template <class S>
+  static Stroke<S> joint_stroke(const State<S>& state) {
+    return {state.joint.contraction_ratio, state.joint.contraction_speed_per_s};
+  }
   template <class S>
   Stroke<S> opposite_stroke(const State<S>& state) const {
     return {link_.opposite_contraction_ratio -
@@ -186,22 +190,25 @@ class PlantOf {
             -opposite_share_ * state.joint.contraction_speed_per_s};
   }
   /// Mass of gas [kg] in valves and muscles, at the walls' temperature.
-  double gas_mass_kg(const State<double>& state) const;
-  /// Kinetic and potential energy of the load [J], zero at rest at e = 0; of a link, at rest where it hangs.
-  double mechanical_energy_J(const State<double>& state) const;
-  /// What the ledger cannot account for of the way from one state to another.
-  Imbalance imbalance(const State<double>& from, const State<double>& to, const Ledger<double>& books) const;
+  double gas_mass_kg(const State<double>& state, const Memory<double>& memory = {}) const;
+  /// Kinetic and potential energy of the load [J], zero at rest at e = 0; of a link, at rest where it hangs;
+  /// and of cords that stretch.
+  double mechanical_energy_J(const State<double>& state, const Memory<double>& memory = {}) const;
+  /// What the ledger cannot account for of the way from one state to another; of memories, that of cords
+  /// counts.
+  Imbalance imbalance(const State<double>& from, const State<double>& to, const Ledger<double>& books,
+                      const Memory<double>& memory_from = {}, const Memory<double>& memory_to = {}) const;
 
  private:
   template <class S>
-  void books_of_gas(const Stroke<S>& stroke, const SideOf<P>& side, const SideState<S>& state,
-                    const SideMoment<S>& now, const P& valve_air_kg, const P& muscle_air_kg, Ledger<S>& rates,
-                    S& valve_rate, S& muscle_rate) const;
+  void books_of_gas(const SideOf<P>& side, const SideState<S>& state, const SideMoment<S>& now,
+                    const P& valve_air_kg, const P& muscle_air_kg, Ledger<S>& rates, S& valve_rate,
+                    S& muscle_rate) const;
   /// Of the threads of both sides, as the joint feels them.
   template <int sides, class S>
-  static S friction_force_N(const Moment<S>& now) {
-    if constexpr (sides == 1) return now.friction_force_N;
-    return now.friction_force_N - now.opposite.friction_force_N;
+  S friction_force_N(const Moment<S>& now) const {
+    if constexpr (sides == 1) return side_.felt_friction_N(now);
+    return side_.felt_friction_N(now) - opposite_->felt_friction_N(now.opposite);
   }
   template <int sides, class S>
   static S friction_level_N(const Moment<S>& now) {
@@ -218,7 +225,8 @@ class PlantOf {
   void joint_balance(const State<S>& state, const HeldOf<H>& held, Moment<S>& now) const;
   /// What a lever adds to the other forces at the cord, and to the mass that moves there.
   template <class S>
-  void lever_balance(const Stand<S>& stand, const S& outer_N, Moment<S>& now, S& others, S& mass_kg) const;
+  void lever_balance(const Stand<S>& stand, const S& v, const S& outer_N, Moment<S>& now, S& others,
+                     S& mass_kg) const;
   template <class S>
   S joint_stop_force_N(const S& rise_m, const S& speed_m_per_s) const;
   void take_stops();
@@ -319,13 +327,13 @@ template <class P>
 template <int sides, class S, class H>
 Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, const HeldOf<H>& held) const {
   Moment<S> now;
-  const Stroke<S> stroke{state.joint.contraction_ratio, state.joint.contraction_speed_per_s};
+  const Stroke<S> stroke = side_.stroke(joint_stroke(state), memory.side);
   side_.gas_balance(stroke, state.side, memory.side, held, now);
   if constexpr (sides == 1) {
     if (side_.may_remember()) side_.remember(stroke, state.side, memory.side, held, now.supply_flow, now);
     side_.forces(stroke, state.side, memory.side, held, now);
   } else {
-    const Stroke<S> other = opposite_stroke(state);
+    const Stroke<S> other = opposite_->stroke(opposite_stroke(state), memory.opposite);
     opposite_->gas_balance(other, state.opposite, memory.opposite, held.opposite, now.opposite);
     const S drawn = now.supply_flow + now.opposite.supply_flow;  // both hang on one supply
     side_.remember(stroke, state.side, memory.side, held, drawn, now);
@@ -333,6 +341,11 @@ Moment<S> PlantOf<P>::moment(const State<S>& state, const Memory<S>& memory, con
     side_.forces(stroke, state.side, memory.side, held, now);
     opposite_->forces(other, state.opposite, memory.opposite, held.opposite, now.opposite);
   }
+  if (side_.stretches()) side_.stretch(joint_stroke(state), state.side, memory.side, held, now);
+  if constexpr (sides == 2)
+    if (opposite_->stretches())
+      opposite_->stretch(opposite_stroke(state), state.opposite, memory.opposite, held.opposite,
+                         now.opposite);
   joint_balance<sides>(state, held, now);
   return now;
 }
@@ -344,9 +357,8 @@ State<S> PlantOf<P>::rates(const State<S>& state, const Moment<S>& now) const {
   State<S> dt;
   dt.joint.contraction_ratio = w;
   dt.joint.contraction_speed_per_s = now.acceleration_m_per_s2 / side_.braid().rest_length_m();
-  dt.side = side_.rates({state.joint.contraction_ratio, w}, state.side, now);
-  if constexpr (sides == 2)
-    dt.opposite = opposite_->rates(opposite_stroke(state), state.opposite, now.opposite);
+  dt.side = side_.rates(state.side, now);
+  if constexpr (sides == 2) dt.opposite = opposite_->rates(state.opposite, now.opposite);
   return dt;
 }
 

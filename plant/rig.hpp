@@ -214,9 +214,10 @@ struct RigOf {
           "how long the first command is held before the first reading (rounded to ticks)");
   }
   CommandUnit command_unit() const { return valve.command_unit; }
-  /// What of it has a memory: effects, laws, or a regulator that swings.
+  /// What of it has a memory: effects, laws, a regulator that swings, or a cord that stretches.
   Memories memories() const {
-    return std::max(effects.memories_used(), valve.swings() ? Memories::few : Memories::none);
+    return std::max({effects.memories_used(), valve.swings() ? Memories::few : Memories::none,
+                     any(!muscle.cord.absent()) ? Memories::all : Memories::none});
   }
   bool remembers() const { return memories() != Memories::none; }
 
@@ -241,9 +242,14 @@ struct RigOf {
   }
 
  private:
-  /// Volumes must not fill in no time.
+  /// Threads stick where the joint does, unless a bristle follows them; volumes must not fill in no time.
   template <class Report>
   void side_rules(Report& report) const {
+    if (!muscle.cord.absent() && friction.memory == FrictionMemory::coulomb)
+      report(
+          "muscle",
+          "on a cord that stretches its threads stick and slip apart from the joint, which friction.memory: "
+          "lugre can follow, coulomb cannot");
     if (valve.seals()) return;
     const double supply_Pa = valve.supply_pressure_Pa + gas.atmosphere_Pa;
     const double volume_rate_m3_per_s_Pa =

@@ -33,10 +33,12 @@ double SideOf<P>::way(double current_mA) const {
 }
 
 template <class P>
-double SideOf<P>::air_kg(double contraction_ratio, const SideState<double>& state) const {
+double SideOf<P>::air_kg(const Stroke<double>& joint, const SideState<double>& state,
+                         const SideMemory<double>& memory) const {
   const double atmosphere = rig_.gas.atmosphere_Pa;
   return ((state.valve_pressure_Pa + atmosphere) * rig_.valve.volume_m3 +
-          (state.muscle_pressure_Pa + atmosphere) * braid_.volume_m3(contraction_ratio)) /
+          (state.muscle_pressure_Pa + atmosphere) *
+              braid_.volume_m3(stroke(joint, memory).contraction_ratio)) /
          gas_energy_J_per_kg_;
 }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <concepts>
 #include <numbers>
+#include <utility>
 
 #include <plant/friction.hpp>
 #include <plant/geometry.hpp>
@@ -30,6 +31,7 @@ struct Stroke {
 /// Forces in N and positive where they shorten the muscle, flows in kg/s.
 template <class S>
 struct SideMoment {
+  Stroke<S> stroke;                      // the muscle's own
   S speed_m_per_s;                       // v = l0 w
   S pressure_error_Pa;                   // what the valve acts on: P_ref - P_v, less its dead band
   S wanted_opening, valve_opening;       // u, -1 (venting) to 1 (filling): before and after effects
@@ -42,9 +44,16 @@ struct SideMoment {
   S pull_on_load_N;                      // of that, beyond the cord
   S heating_Pa_per_s;                    // what the temperature of the muscle's gas adds to dP_m/dt
   SideMemory<S> memory_rates;
+  bool stretches;              // its cord; if so:
+  S stretched_N, cord_lost_W;  // what that pulls with, and what its damping takes
 
   /// T, what the cord carries.
   S cord_force_N() const {
+    if (stretches) return stretched_N;
+    return muscle_force_N();
+  }
+  /// What the muscle pulls on it with.
+  S muscle_force_N() const {
     return braid_force_N + stop_force_N + effects_pull_N + friction_force_N - pull_on_load_N;
   }
 };
@@ -71,13 +80,40 @@ class SideOf {
   void remember(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                 const HeldSideOf<H>& held, const S& supply_flow, SideMoment<S>& now) const;
   template <class S>
-  SideState<S> rates(const Stroke<S>& stroke, const SideState<S>& state, const SideMoment<S>& now) const;
+  SideState<S> rates(const SideState<S>& state, const SideMoment<S>& now) const;
 
-  auto in_domain(const P& contraction_ratio, const SideState<P>& state) const {
+  /// Whether the cord between muscle and joint stretches; of lanes, that of any.
+  bool stretches() const { return stretches_; }
+  /// The muscle's own stroke, where the joint moves its cord's end so.
+  template <class S>
+  Stroke<S> stroke(const Stroke<S>& joint, const SideMemory<S>& memory) const {
+    if (!stretches_) return joint;
+    const P& length_m = braid_.rest_length_m();
+    return {joint.contraction_ratio + memory[cord_stretch] / length_m,
+            select(on_cord_, S(memory[cord_end_speed] / length_m), joint.speed_per_s)};
+  }
+  /// What a cord that stretches carries, and how it goes on. After the forces; only where one does.
+  template <class S, class H>
+  void stretch(const Stroke<S>& joint, const SideState<S>& state, const SideMemory<S>& memory,
+               const HeldSideOf<H>& held, SideMoment<S>& now) const;
+  /// One of two values, of which the first is for a cord that stretches.
+  template <class S>
+  S where_it_stretches(const S& yes, const S& no) const {
+    return select(on_cord_, yes, no);
+  }
+  /// Of thread friction what the joint feels: a cord that stretches has it in its own pull.
+  template <class S>
+  S felt_friction_N(const SideMoment<S>& now) const {
+    if (!stretches_) return now.friction_force_N;
+    return select(on_cord_, S(0.0), now.friction_force_N);
+  }
+
+  auto in_domain(const Stroke<P>& joint, const SideState<P>& state, const SideMemory<P>& memory) const {
     using std::isfinite;
     const P& atmosphere = rig_.gas.atmosphere_Pa;
+    const Stroke<P> own = stroke(joint, memory);
     // A sum that is finite has only finite terms; comparisons with NaN are false.
-    return braid_.in_domain(contraction_ratio) && state.valve_pressure_Pa > -atmosphere &&
+    return braid_.in_domain(own.contraction_ratio) && state.valve_pressure_Pa > -atmosphere &&
            state.muscle_pressure_Pa > -atmosphere &&
            isfinite(state.valve_pressure_Pa + state.muscle_pressure_Pa + state.bristle_m);
   }
@@ -88,7 +124,8 @@ class SideOf {
   /// How much more a mA asks for [Pa/mA]; nothing beyond the valve's trimmed range.
   double reference_slope_Pa_per_mA(double current_mA) const;
   /// Gas [kg] in valve and muscle, and in the valve alone, at the walls' temperature.
-  double air_kg(double contraction_ratio, const SideState<double>& state) const;
+  double air_kg(const Stroke<double>& joint, const SideState<double>& state,
+                const SideMemory<double>& memory) const;
   double valve_air_kg(const SideState<double>& state) const;
 
   const RigOf<P>& rig() const { return rig_; }
@@ -96,7 +133,7 @@ class SideOf {
   const P& weight_N() const { return weight_N_; }
   bool has_effects() const { return effects_; }
   /// Whether there is something to `remember`.
-  bool may_remember() const { return effects_ || swings_; }
+  bool may_remember() const { return effects_ || swings_ || stretches_; }
   /// What laws add to the rise that is read [m].
   double reading_shift_m(const Stroke<double>& stroke, const SideState<double>& state,
                          const SideMemory<double>& memory, const HeldSide& held) const;
@@ -148,10 +185,11 @@ class SideOf {
   RigOf<P> rig_;
   BraidOf<P> braid_;
   RestrictionOf<P> valve_, vent_, hose_, unit_flow_;
-  bool effects_, regulates_, swings_, switches_, sealed_;
-  double count_, share_;    // muscles side by side; 1/count
-  FrictionOf<P> friction_;  // of all of them, by the contact surface of one
-  P leak_kg_per_s_Pa_;      // of valves that are shut
+  bool effects_, regulates_, swings_, switches_, sealed_, stretches_;
+  decltype(std::declval<P>() == 0.0) on_cord_;  // a cord that stretches; of lanes, which
+  double count_, share_;                        // muscles side by side; 1/count
+  FrictionOf<P> friction_;                      // of all of them, by the contact surface of one
+  P leak_kg_per_s_Pa_;                          // of valves that are shut
   P weight_N_, gas_energy_J_per_kg_, valve_stiffness_Pa_per_kg_, supply_Pa_, exhaust_Pa_;
   P quickness_per_s_, catching_up_per_s_;  // of a regulator: dP_v/dt for an error, the memory's for its own
 };
@@ -170,6 +208,8 @@ SideOf<P>::SideOf(const RigOf<P>& rig, const P& weight_N)
       swings_(rig.valve.swings()),
       switches_(rig.valve.is_on_off()),
       sealed_(rig.valve.seals()),
+      stretches_(any(!rig.muscle.cord.absent())),
+      on_cord_(!rig.muscle.cord.absent()),
       count_(rig.muscle.count),
       share_(1.0 / count_),
       friction_(side_by_side(rig.friction, count_)),
@@ -295,6 +335,8 @@ template <class S, class H>
 void SideOf<P>::gas_balance(const Stroke<S>& stroke, const SideState<S>& state, const SideMemory<S>& memory,
                             const HeldSideOf<H>& held, SideMoment<S>& now) const {
   const S& e = stroke.contraction_ratio;
+  now.stroke = stroke;
+  now.stretches = stretches_;
   now.speed_m_per_s = braid_.rest_length_m() * stroke.speed_per_s;
   now.volume_m3 = braid_.volume_m3(e);
   now.volume_slope_m3 = braid_.volume_slope_m3(e);
@@ -369,14 +411,37 @@ void SideOf<P>::forces(const Stroke<S>& stroke, const SideState<S>& state, const
   }
 }
 
+// What acts on the load itself, beyond the cord, goes by the joint's motion and not by the muscle's.
+template <class P>
+template <class S, class H>
+void SideOf<P>::stretch(const Stroke<S>& joint, const SideState<S>& state, const SideMemory<S>& memory,
+                        const HeldSideOf<H>& held, SideMoment<S>& now) const {
+  const CordOf<P>& cord = rig_.muscle.cord;
+  const S joint_m_per_s = braid_.rest_length_m() * joint.speed_per_s;
+  if (effects_) {
+    Instant<S> there = instant(joint, state, held, now);
+    there.speed_m_per_s = joint_m_per_s;
+    const S on_load_N = select(on_cord_, S(rig_.effects.pull(there, memory).on_load_N), now.pull_on_load_N);
+    now.effects_pull_N =
+        select(on_cord_, S(now.effects_pull_N - now.pull_on_load_N + on_load_N), now.effects_pull_N);
+    now.pull_on_load_N = on_load_N;
+  }
+  const S &stretch_m = memory[cord_stretch], &end_m_per_s = memory[cord_end_speed];
+  const S rate_m_per_s = end_m_per_s - joint_m_per_s;
+  now.stretched_N = select(on_cord_, cord.pull_N(stretch_m, rate_m_per_s), now.muscle_force_N());
+  now.cord_lost_W = select(on_cord_, S((now.stretched_N - cord.spring_N(stretch_m)) * rate_m_per_s), S(0.0));
+  now.memory_rates[cord_stretch] = select(on_cord_, rate_m_per_s, S(0.0));
+  now.memory_rates[cord_end_speed] =
+      select(on_cord_, S((now.muscle_force_N() - now.stretched_N) / cord.end_mass_kg), S(0.0));
+}
+
 template <class P>
 template <class S>
-SideState<S> SideOf<P>::rates(const Stroke<S>& stroke, const SideState<S>& state,
-                              const SideMoment<S>& now) const {
+SideState<S> SideOf<P>::rates(const SideState<S>& state, const SideMoment<S>& now) const {
   SideState<S> dt;
   dt.valve_pressure_Pa = valve_stiffness_Pa_per_kg_ * (now.supply_flow - now.vent_flow - now.hose_flow);
   if (effects_) dt.valve_pressure_Pa = rig_.effects.gas_exponent() * dt.valve_pressure_Pa;
-  dt.muscle_pressure_Pa = muscle_pressure_rate_Pa_per_s(stroke, state, now);
+  dt.muscle_pressure_Pa = muscle_pressure_rate_Pa_per_s(now.stroke, state, now);
   dt.bristle_m = now.bristle_rate_m_per_s;
   return dt;
 }

@@ -29,6 +29,12 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
              channel.signal->of_commands_in.value_or(rig.command_unit()) == rig.command_unit();
     case Needs::valve:
       return driven.pressure[channel.muscle == 2 ? 1 : 0] != GivenPressure::muscle;
+    case Needs::cord: {
+      const Pair* pair = channel.muscle == 2 ? rig.pair() : nullptr;
+      const Muscle& muscle = pair != nullptr ? pair->opposite.muscle : rig.muscle;
+      const bool has_it_already = driven.pair && channel.signal->part == Part::joint;
+      return !muscle.cord.absent() && !has_it_already;
+    }
     case Needs::outer_force:
       return driven.joint_force && !has_angle(rig, driven);
     case Needs::outer_torque:

@@ -26,9 +26,10 @@ struct SideSample {
   double reference_Pa = 0.0;  ///< that it asks of the valve
   double contraction_ratio = 0.0;
   double braid_force_N = 0.0, friction_force_N = 0.0, effects_pull_N = 0.0;
-  double cord_force_N = 0.0;     ///< T, the sum
-  double inflow_kg_per_s = 0.0;  ///< through the hose, or what keeps a given pressure
-  BySensed shown{};              ///< by sensors; the value itself where none reads it
+  double cord_force_N = 0.0;                            ///< T, the sum
+  double cord_stretch_m = 0.0, cord_end_m_per_s = 0.0;  ///< of a cord that stretches, and of the muscle's end
+  double inflow_kg_per_s = 0.0;                         ///< through the hose, or what keeps a given pressure
+  BySensed shown{};                                     ///< by sensors; the value itself where none reads it
 };
 
 /// A rig at an instant, before what is given changes. True values, but for `counts`, `read_...` and
@@ -44,6 +45,15 @@ struct Sample : SideSample {
   double joint_force_N = 0.0, joint_torque_N_m = 0.0;  ///< from outside, from here to the next row
   SideSample opposite{};                               ///< muscle 2 of a pair
 
+  /// Of what is remembered that of cords.
+  Memory<double> cords() const {
+    Memory<double> all{};
+    all.side[cord_stretch] = cord_stretch_m;
+    all.side[cord_end_speed] = cord_end_m_per_s;
+    all.opposite[cord_stretch] = opposite.cord_stretch_m;
+    all.opposite[cord_end_speed] = opposite.cord_end_m_per_s;
+    return all;
+  }
   double shown_ratio() const { return state.joint.contraction_ratio + misread_ratio; }
   const SideSample& side(std::size_t muscle) const { return muscle == 2 ? opposite : *this; }
   const SideState<double>& side_state(std::size_t muscle) const {
@@ -71,7 +81,8 @@ struct Unit {
 enum class Kind { time, input, state, reading };
 enum class Part { joint, muscle };
 /// What a rig must have for a signal to exist: one muscle; or a joint whose angle is read, of two muscles or
-/// a lever, or else whose height is. Outer forces are of these, torques of those.
+/// a lever, or else whose height is. Outer forces are of these, torques of those. A cord is one that
+/// stretches.
 enum class Needs {
   nothing,
   height,
@@ -81,6 +92,7 @@ enum class Needs {
   command,
   valve,
   sensor,
+  cord,
   outer_force,
   outer_torque
 };
@@ -248,6 +260,17 @@ inline constexpr auto signals = std::to_array<Signal>({
      .part = Part::muscle,
      .needs = Needs::pair,
      .value = [](const Sample& row, std::size_t i) { return row.side(i).contraction_ratio; }},
+    {.key = "cord_stretch",
+     .unit = units::m,
+     .words = "stretch of the cord of the muscle, which contracts by as much more than the joint lets it",
+     .part = Part::muscle,
+     .needs = Needs::cord,
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).cord_stretch_m; }},
+    {.key = "muscle_contraction_ratio",
+     .unit = units::ratio,
+     .words = "contraction ratio of the muscle itself, on a cord that stretches",
+     .needs = Needs::cord,
+     .value = [](const Sample& row, std::size_t) { return row.contraction_ratio; }},
     {.key = "bristle",
      .unit = units::m,
      .words = "deflection of the bristles of thread friction",

@@ -30,16 +30,17 @@ struct State {
 };
 
 /// What one side remembers (EffectSet::memories): of a regulator of second order the pressure error [Pa] that
-/// it has come to follow; of laws their memories in sizes of their own, and the time [s]; all zero at the
-/// start.
+/// it has come to follow; of laws their memories in sizes of their own, and the time [s]; of a cord its
+/// stretch [m], and the speed of the muscle's end [m/s]; all zero at the start.
+inline constexpr std::size_t regulator_memory = Effects::memories, cord_stretch = Effects::all_memories,
+                             cord_end_speed = cord_stretch + 1, all_memories = cord_end_speed + 1;
 template <class S>
-using SideMemory = std::array<S, Effects::all_memories>;
-inline constexpr std::size_t regulator_memory = Effects::memories;
+using SideMemory = std::array<S, all_memories>;
 /// Of that what integrators carry: the first so many.
 constexpr int carried(Memories used) {
   return static_cast<int>(used == Memories::none  ? 0
                           : used == Memories::few ? Effects::few_memories
-                                                  : Effects::all_memories);
+                                                  : all_memories);
 }
 template <class S>
 struct Memory {
@@ -54,7 +55,7 @@ struct Ledger {
   S air_leaked_kg;           ///< to the atmosphere, from the muscle
   S braid_work_J;            ///< done by the braid on the load
   S thread_friction_work_J;  ///< taken by the threads
-  S guide_work_J;            ///< taken by the load guide, or by the bearings of a pair
+  S guide_work_J;            ///< taken by the load guide, by bearings, and by cords that stretch
   S stop_work_J;             ///< done by the taut threads on the load
   S effects_work_J;          ///< done by the pull of effects on the load
   S bench_work_J;            ///< done on the cord by what gives the muscle its length, or pulls from outside
@@ -74,6 +75,8 @@ inline constexpr auto memory_sizes = [] {
   sizes.fill(1.0);
   std::copy(Effects::memory_sizes.begin(), Effects::memory_sizes.end(), sizes.begin());
   sizes[regulator_memory] = 1e5;
+  sizes[cord_stretch] = 1e-3;
+  sizes[cord_end_speed] = 0.3;
   return sizes;
 }();
 inline constexpr int ledger_size = 16, isothermal_ledger_size = 9;

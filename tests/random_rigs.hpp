@@ -106,6 +106,7 @@ struct Shuffle {
     } else if constexpr (AnEffect<T>) {
       if (chance.pick(one_in) == 0) shuffle_effect(value);
     } else if constexpr (std::is_same_v<T, ValveKind>) {  // of a regulator more must be said
+    } else if constexpr (std::is_same_v<T, Cord>) {       // tests of its own, engine/cord_test.cpp
     } else if constexpr (std::is_same_v<T,
                                         Sensors>) {  // an encoder, and a gauge or none; no law knows others
       Sensor::fields(value.position(), *this);

@@ -85,7 +85,7 @@ template <class L, class Matrix>
 bool jacobian(const Problem<L>& problem, const double* y, Matrix& result) {
   const auto& plant = problem.plant();
   const auto at = Problem<L>::state_of(y);
-  if (!plant.template in_domain<L::sides>(at)) return false;
+  if (!plant.template in_domain<L::sides>(at, Problem<L>::memory_of(y))) return false;
   const Unknowns<L> unknowns(at, y);
   const auto now = plant.template moment<L::sides>(unknowns.state, unknowns.memory, problem.held);
   const auto rates = plant.template rates<L::sides>(unknowns.state, now);

@@ -22,7 +22,7 @@ Mask LaneProblem<memories, sides, books>::rates(const plant::PlantOf<Lanes>& pla
       memory.side[i] = at(y, L::states + i, block);
       if constexpr (sides == 2) memory.opposite[i] = at(y, L::states + each + i, block);
     }
-    inside = plant.template in_domain<sides>(state);
+    inside = plant.template in_domain<sides>(state, memory);
     const auto now = plant.template moment<sides>(state, memory, held);
     const auto slopes = plant.template rates<sides>(state, now);
     at(dydt, 0, block) = by * slopes.joint.contraction_ratio;

@@ -41,6 +41,8 @@ std::vector<Remembered> memories_of(const plant::SideOf<double>& side, const std
       all[laws + law.place + i] = {{law.text->name + "." + memory.name + suffix, memory.unit}, memory.size};
     }
   }
+  all.push_back({{"cord_stretch" + suffix + "_m", "m"}});
+  all.push_back({{"cord_end_speed" + suffix + "_m_per_s", "m s-1"}});
   return all;
 }
 
@@ -196,7 +198,8 @@ Linear linearise(const plant::Plant& plant, const Flow& at, const plant::Held& h
     throw std::invalid_argument("linearise: a pressure or the length is given; it wants currents alone");
   if (plant.has_events() && held.slip == plant::Slip::sticking)
     throw std::invalid_argument("linearise: the load sticks (Coulomb friction), and has no slopes");
-  if (!plant.in_domain(at.state)) throw std::invalid_argument("linearise: outside the domain of the laws");
+  if (!plant.in_domain(at.state, at.memory))
+    throw std::invalid_argument("linearise: outside the domain of the laws");
   // Only the calculation of one kind of rig has to be compiled for each number of muscles: what is not at
   // work is dropped.
   if (plant.opposite())

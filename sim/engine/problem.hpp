@@ -108,8 +108,9 @@ class Problem {
   /// dy/dt; false where a law is not defined (a trial stage of the solver may go there).
   [[gnu::flatten]] bool rates(const double* y, double* dydt) const {
     const auto state = state_of(y);
-    if (!plant_.template in_domain<L::sides>(state)) return false;
-    const auto now = plant_.template moment<L::sides>(state, memory_of(y), held);
+    const auto memory = memory_of(y);
+    if (!plant_.template in_domain<L::sides>(state, memory)) return false;
+    const auto now = plant_.template moment<L::sides>(state, memory, held);
     const auto rates = plant_.template rates<L::sides>(state, now);
     put(rates, dydt);
     if constexpr (L::remembers) {  // a plant beside others may have no effects at all

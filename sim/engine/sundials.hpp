@@ -145,7 +145,8 @@ long carry(Problem<typename V::layout>& problem, N_Vector y, Flow& flow, plant::
   for (long events = 0;; ++events) {
     problem.store(flow, V::data(y));
     Trouble trouble = Trouble::outside_domain;
-    Reached reached = problem.plant().in_domain(flow.state) ? evolve(t, trouble) : Reached::trouble;
+    Reached reached =
+        problem.plant().in_domain(flow.state, flow.memory) ? evolve(t, trouble) : Reached::trouble;
     problem.load(V::data(y), flow);
     if (reached == Reached::event && events == most_events_in_a_tick) {
       reached = Reached::trouble;

@@ -129,9 +129,9 @@ std::string table_of_signals() {
     using plant::InFiles, plant::Needs;
     const bool each = signal.part == plant::Part::muscle;
     const plant::Channel alone{&signal}, of_pair{&signal, each ? 1U : 0U};
-    const bool of_pair_only = signal.needs == Needs::pair, of_one_only = signal.needs == Needs::one_muscle ||
-                                                                         signal.needs == Needs::height ||
-                                                                         signal.needs == Needs::outer_force;
+    const bool of_pair_only = signal.needs == Needs::pair,
+               of_one_only = signal.needs == Needs::one_muscle || signal.needs == Needs::height ||
+                             signal.needs == Needs::outer_force || (signal.needs == Needs::cord && !each);
     const std::string one = of_pair_only ? "" : alone.name(), two = of_one_only ? "" : of_pair.name();
     const char* in_files = signal.in_files == InFiles::yes  ? "yes"
                            : signal.in_files == InFiles::no ? ""

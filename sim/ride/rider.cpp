@@ -110,7 +110,7 @@ void Rider::start(const Drive& given, double at_s) {
     all.fill(true);
     rest_memories(*this, at_rest_length, 0.0, all);
   }
-  flow.ledger = plant_.opened(flow.state);
+  flow.ledger = plant_.opened(flow.state, flow.memory);
   if (plant_.has_events() && !held.length_is_given)
     held.slip = plant_.slip_from_rest(flow.state, flow.memory, held);
   look();

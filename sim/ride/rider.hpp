@@ -118,7 +118,7 @@ class Rider {
   void require_reading() const;
 
   /// Nothing has come or gone from here on.
-  void open_ledger() { now.flow.ledger = plant_.opened(now.flow.state); }
+  void open_ledger() { now.flow.ledger = plant_.opened(now.flow.state, now.flow.memory); }
 
   const plant::Plant& plant() const { return plant_; }
   plant::Moment<double> moment() const { return plant_.moment(now.flow.state, now.flow.memory, now.held); }

@@ -43,15 +43,21 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   const plant::Plant& plant = rider.plant();
   const plant::Rig& rig = plant.rig();
   const plant::State<double>& state = rider.now.flow.state;
+  const plant::Memory<double>& memory = rider.now.flow.memory;
   const Drive& drive = rider.now.drive;
   const Reading& reading = rider.now.reading;
   const plant::Moment<double> now = rider.moment();
   plant::Sample row;
   const auto write = [&](plant::SideSample& to, const plant::Side& side, const Command& command,
-                         double contraction_ratio, const plant::SideMoment<double>& forces) {
+                         const plant::SideMoment<double>& forces,
+                         const plant::SideMemory<double>& remembered) {
     to.current_mA = command.current_mA;
     to.reference_Pa = side.reference_pressure_Pa(command.current_mA);
-    to.contraction_ratio = contraction_ratio;
+    to.contraction_ratio = forces.stroke.contraction_ratio;
+    if (forces.stretches) {
+      to.cord_stretch_m = remembered[plant::cord_stretch];
+      to.cord_end_m_per_s = remembered[plant::cord_end_speed];
+    }
     to.braid_force_N = forces.braid_force_N;
     to.friction_force_N = forces.friction_force_N;
     to.effects_pull_N = forces.effects_pull_N;
@@ -64,7 +70,7 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   row.state = state;
   row.counts = counts;
   row.misread_ratio = reading.misread_m / length_m;
-  write(row, plant.side(), drive, state.joint.contraction_ratio, now);
+  write(row, plant.side(), drive, now, memory.side);
   row.joint_force_N = drive.joint_force_N;
   row.joint_torque_N_m = -radius_m * drive.joint_force_N;
   show(rig.sensors, row, 1, reading, noise[0], row.shown);
@@ -77,12 +83,10 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   row.angle_speed_rad_per_s = plant.angle_speed_rad_per_s(state.joint);
   row.torque_N_m = plant.arm_m(state.joint.contraction_ratio) * row.cord_force_N;
   if (!plant.opposite()) return row;
-  write(row.opposite, *plant.opposite(), drive.opposite, plant.opposite_stroke(state).contraction_ratio,
-        now.opposite);
+  write(row.opposite, *plant.opposite(), drive.opposite, now.opposite, memory.opposite);
   show(rig.sensors, row, 2, reading, noise[1], row.opposite.shown);
   row.torque_N_m = radius_m * (row.cord_force_N - row.opposite.cord_force_N);
-  row.stiffness_N_m_per_rad =
-      plant::joint_stiffness_N_m_per_rad(plant, state, rider.now.flow.memory, rider.now.held);
+  row.stiffness_N_m_per_rad = plant::joint_stiffness_N_m_per_rad(plant, state, memory, rider.now.held);
   return row;
 }
 

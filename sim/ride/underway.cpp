@@ -22,7 +22,10 @@ void rest_memories(Rider& rider, const plant::State<double>& before, double off,
     return muscle == Muscle::first ? moment.memory_rates : moment.opposite.memory_rates;
   };
   const auto at_rest = rates(before, none), now = rates(flow.state, none);
-  for (std::size_t slot = 0; slot < static_cast<std::size_t>(plant::carried(plant.memories())); ++slot) {
+  // A cord's stretch and its end's speed rest by each other: they are no effect's.
+  const auto slots =
+      std::min(static_cast<std::size_t>(plant::carried(plant.memories())), plant::cord_stretch);
+  for (std::size_t slot = 0; slot < slots; ++slot) {
     if (!which[slot]) continue;
     const double size = plant::memory_sizes[slot];
     plant::SideMemory<double> further = none;
@@ -36,18 +39,31 @@ void rest_memories(Rider& rider, const plant::State<double>& before, double off,
 
 namespace {
 
+/// A cord that stretches is as long as the acceleration of the joint asks for, and stays so.
+void stretch_cord(Rider& rider, const Underway& seen, double speed_m_per_s) {
+  plant::SideMemory<double>& memory = rider.now.flow.memory.side;
+  memory[plant::cord_end_speed] = speed_m_per_s;
+  const double slack = rider.moment().acceleration_m_per_s2;
+  double& stretch_m = memory[plant::cord_stretch] = plant::memory_sizes[plant::cord_stretch];
+  const double slope = (rider.moment().acceleration_m_per_s2 - slack) / stretch_m;
+  stretch_m = std::max((seen.acceleration_m_per_s2 - slack) / slope, 0.0);
+}
+
 /// The threads' bristles bend as far as the acceleration asks for, and friction allows.
 void bend_bristles(Rider& rider, double acceleration_m_per_s2) {
   const plant::Plant& plant = rider.plant();
   engine::Flow& flow = rider.now.flow;
+  const auto end_m_per_s2 = [&](const plant::Moment<double>& now) {  // of the muscle's end
+    return now.stretches ? now.memory_rates[plant::cord_end_speed] : now.acceleration_m_per_s2;
+  };
   const auto& friction = plant.rig().friction;
   double& bristle_m = flow.state.side.bristle_m;
   bristle_m = 0.0;
   const plant::Moment<double> straight = rider.moment();
   const double most_m = straight.friction_level_N / friction.bristle_stiffness_N_per_m;
   bristle_m = most_m;
-  const double slope = (rider.moment().acceleration_m_per_s2 - straight.acceleration_m_per_s2) / most_m;
-  bristle_m = std::clamp((acceleration_m_per_s2 - straight.acceleration_m_per_s2) / slope, -most_m, most_m);
+  const double slope = (end_m_per_s2(rider.moment()) - end_m_per_s2(straight)) / most_m;
+  bristle_m = std::clamp((acceleration_m_per_s2 - end_m_per_s2(straight)) / slope, -most_m, most_m);
 }
 
 }  // namespace
@@ -74,6 +90,7 @@ void set_off(Rider& rider, const Underway& seen) {
     state.side.muscle_pressure_Pa = plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
     if (!now.drive.valve_pressure_Pa) state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa;
   }
+  if (plant.side().stretches()) stretch_cord(rider, seen, speed_m_per_s);
   SomeMemories all;
   all.fill(true);
   rest_memories(rider, at_rest, seen.memories, all);

@@ -94,9 +94,10 @@ void Following::end(const engine::Counters& solver, const engine::NumericalFailu
                          return pressure != plant::GivenPressure::none;
                        });
     const bool exact = rig().integrator.method != solver::Method::cvode && solver.stiff_from_tick < 0;
+    const Sample& first = recording_.samples.front();
     if (exact || !given)
       recording_.imbalance =
-          rider.plant().imbalance(recording_.samples.front().state, last.state, last.ledger);
+          rider.plant().imbalance(first.state, last.state, last.ledger, first.cords(), last.memory);
     if (solver.stiff_from_tick >= 0)
       recording_.solver.stiff_from_tick -= std::lround(rig().settling_time_s / rig().tick_s);
     note_slack(recording_, rig());

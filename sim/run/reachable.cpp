@@ -153,13 +153,21 @@ class Moving {
 };
 
 controllers::ReachOfLoad reach_of(const plant::Rig& rig, double load_kg, const std::vector<double>& ratios) {
-  const Moving up(rig, load_kg, 1.0), down(rig, load_kg, -1.0);
+  // On a cord that stretches the muscle is shorter, always by as much.
+  const plant::Cord& cord = rig.muscle.cord;
+  plant::Rig taut = rig;
+  taut.muscle.cord = {};
+  const double shorter =
+      cord.absent() ? 0.0
+                    : load_kg * plant::gravity_m_per_s2 / cord.stiffness_N_per_m / rig.muscle.rest_length_m;
+  const Moving up(taut, load_kg, 1.0), down(taut, load_kg, -1.0);
   controllers::ReachOfLoad reach;
   reach.load_kg = load_kg;
   reach.lowest_rising = up.rest_ratio(rig.valve.zero_pressure_Pa);
   reach.lowest_falling = down.rest_ratio(rig.valve.zero_pressure_Pa);
   reach.highest = up.rest_ratio(rig.valve.span_pressure_Pa);
-  for (const double e : ratios) {
+  for (const double ratio : ratios) {
+    const double e = std::min(ratio + shorter, ratios.back());
     reach.rising_per_s.push_back(e < reach.highest ? up.largest_speed_per_s(e) : 0.0);
     reach.falling_per_s.push_back(e > reach.lowest_falling ? down.largest_speed_per_s(e) : 0.0);
     const double within =
@@ -167,6 +175,7 @@ controllers::ReachOfLoad reach_of(const plant::Rig& rig, double load_kg, const s
     reach.rising_lag_s.push_back(up.lag_s(within));
     reach.falling_lag_s.push_back(down.lag_s(within));
   }
+  for (double* at : {&reach.lowest_rising, &reach.lowest_falling, &reach.highest}) *at -= shorter;
   return reach;
 }
 

@@ -106,9 +106,11 @@ class Run : public ride::BatchItem {
     const engine::Flow& last = rider_.now.flow;
     if (failure != nullptr) recording_.failure = failure->what();
     recording_.ledger = last.ledger;
-    if (plan_.keep_ledger && !recording_.samples.empty())
+    if (plan_.keep_ledger && !recording_.samples.empty()) {
+      const Sample& first = recording_.samples.front();
       recording_.imbalance =
-          rider_.plant().imbalance(recording_.samples.front().state, last.state, last.ledger);
+          rider_.plant().imbalance(first.state, last.state, last.ledger, first.cords(), last.memory);
+    }
     recording_.solver = solver;
     if (recording_.solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick += begin_;
     recording_.findings = findings_for(controller_, plan_.rig);

@@ -63,6 +63,17 @@ TEST(Jacobian, KnowsLeversAndStops) {
     expect_slopes<Layout<1, plant::Memories::none, Books::isothermal>>(rig);
 }
 
+TEST(Jacobian, KnowsCordsThatStretch) {
+  plant::Rig rig, lever;
+  rig.muscle.cord = lever.muscle.cord = {2e4, 100.0, 0.1};
+  rig.effects.get<plant::GuideFriction>().coefficient = 0.02;
+  lever.mechanics = plant::Lever{};
+  expect_slopes<Layout<1, plant::Memories::all, Books::polytropic>>(rig);
+  expect_slopes<Layout<1, plant::Memories::all, Books::polytropic>>(lever);
+  rig.effects = {};
+  expect_slopes<Layout<2, plant::Memories::all, Books::polytropic>>(rig);
+}
+
 TEST(Jacobian, IsRefusedOutsideTheDomain) {
   const plant::Plant plant(plant::Rig{}, 15.0);
   const Problem<Layout<1, plant::Memories::none, Books::none>> problem(plant);

@@ -205,6 +205,28 @@ TEST(Vectorised, LeversKeepToTheirOwnArms) {
   EXPECT_FALSE(kind(one, neither));
 }
 
+TEST(Vectorised, OnlySomeHaveCordsThatStretch) {
+  Chance chance(6);
+  plant::Rig rig;
+  rig.effects.get<plant::GuideFriction>().coefficient = 0.02;
+  for (int i = 0; i < 100; ++i) {
+    plant::Rig corded = rig;
+    corded.muscle.cord = {chance.log_between(1e4, 1e6), 100.0, chance.between(0.05, 0.5)};
+    expect_alike(Eight(chance, corded), "all");
+    Eight eight(chance, corded);
+    for (std::size_t lane = 0; lane < Lanes::count; lane += 2) {
+      eight.plants[lane] = plant::plant_of(rig, chance.between(8.0, 25.0));
+      eight.memory.side[plant::cord_stretch].set(lane, 0.0);  // as it stays without one
+    }
+    const auto together = eight.rates();
+    for (std::size_t lane = 0; lane < Lanes::count; ++lane) {
+      const auto alone = eight.rates_alone(lane);
+      for (std::size_t k = 0; k < alone.size(); ++k)
+        EXPECT_NEAR(together[k][lane], alone[k], 1e-11 * (std::abs(alone[k]) + 1.0)) << lane << ' ' << k;
+    }
+  }
+}
+
 TEST(Vectorised, AnEffectOfOneRigIsNotItsNeighbours) {
   Chance chance(4);
   const auto rigs = plant::rigs_with_one_effect();
