@@ -49,6 +49,7 @@ constexpr Part scenario_parts[] = {
      "  - {kind: pid, name: pid_late, feedback_delay_ticks: 5}\n"
      "  - {kind: static_inverse, assumed_load: 14 kg}\n"},
     {"joint_force", "#joint_force: [{at: 0.2 s, force: 10 N}]\n"},
+    {"joint_torque", ""},
     {"noise", "#noise: {encoder_jitter: 1e-4, ripple: 5 mbar}\n"},
     {"seed", "#seed: 7\n"},
     {"criteria", "#criteria: [{controller: pid, rmse_below: 0.05}]    # if not met, the exit status is 1\n"},

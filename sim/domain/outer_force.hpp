@@ -1,4 +1,5 @@
-// A force that a scenario puts on the cord: a load that changes in a run, a push, a disturbance.
+// A force that a scenario puts on the cord, or a torque on the joint: a load that changes in a run, a push, a
+// disturbance.
 #pragma once
 
 namespace mckibben::domain {
@@ -14,5 +15,22 @@ struct OuterForce {
                    "positive lengthens the muscle, as a load does: 9.80665 N for a kilogram");
   }
 };
+
+/// The same of a joint with an angle.
+struct OuterTorque {
+  double at_s = 0.0, torque_N_m = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit.required("at", self.at_s, "s", 0.0, 3600.0, "from the first tick not before it");
+    visit.required("torque", self.torque_N_m, "N.m", -1e4, 1e4,
+                   "positive where it turns as muscle 1 does that contracts");
+  }
+};
+
+/// What acts so on the cord that runs on the joint's wheel.
+inline double as_force_N(double torque_N_m, double wheel_radius_m) {
+  return -torque_N_m / wheel_radius_m;
+}
 
 }  // namespace mckibben::domain

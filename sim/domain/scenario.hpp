@@ -137,7 +137,8 @@ struct Scenario {
   double duration_s = 0.0;
   std::optional<double> skip_s;  ///< of errors and tuning; absent: until the target first moves
   std::vector<controllers::Settings> controllers;
-  std::vector<OuterForce> outer_forces;  ///< of one muscle
+  std::vector<OuterForce> outer_forces;    ///< of a hanging load
+  std::vector<OuterTorque> outer_torques;  ///< of a lever or a pair
   plant::Noise noise;
   std::uint64_t seed = 1;
   std::vector<Criterion> criteria;
@@ -178,6 +179,7 @@ struct Scenario {
     });
     visit("joint_force", self.outer_forces,
           "forces on the cord in addition to the load, one after the other; none before the first");
+    visit_torques(self, visit);
     fields_of_chance(self, visit);
     if (self.rig.lever() != nullptr)
       visit_criteria_of_joint(self, visit);
@@ -189,6 +191,7 @@ struct Scenario {
   template <class Self, class Visitor>
   static void fields_of_pair(Self& self, Visitor& visit) {
     fields_of_time(self, visit);
+    visit_torques(self, visit);
     visit("currents", self.currents, "runs under given currents, two each");
     visit("targets", self.targets, "what controllers are to do with the joint");
     Hand hand{self.hand_m, self.loads_kg.empty() ? Hand{}.loads_kg : self.loads_kg};
@@ -201,6 +204,12 @@ struct Scenario {
         self, [&](auto& controllers) { visit("controllers", controllers, "what is to follow the targets"); });
     fields_of_chance(self, visit);
     visit_criteria_of_joint(self, visit);
+  }
+
+  template <class Self, class Visitor>
+  static void visit_torques(Self& self, Visitor& visit) {
+    visit("joint_torque", self.outer_torques,
+          "of a lever or a pair: torques on the joint, one after the other; none before the first");
   }
 
   template <class Self, class Visitor>

@@ -40,6 +40,7 @@ class ScenarioChecker {
     check_rig();
     if (pair() != nullptr) {
       check_currents();
+      check_outer_forces();
       check_joint_targets();
       check_hand();
       check_controlled();
@@ -295,18 +296,35 @@ class ScenarioChecker {
     }
   }
 
+  /// Of what acts from outside, one after the other.
+  template <class Outer>
+  void check_times(std::string_view key, const std::vector<Outer>& all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto wrong = [&](std::string_view rule) {
+        problems_.error(source_, list(key).children[i].place, fmt::format("{}: {}", key, rule));
+      };
+      if (i > 0 && all[i].at_s <= all[i - 1].at_s) wrong("times must ascend");
+      if (all[i].at_s >= scenario_.duration_s) wrong("at must be before the end, duration");
+    }
+  }
+
   void check_outer_forces() {
     const auto& forces = scenario_.outer_forces;
-    if (!forces.empty() && scenario_.rig.lever() != nullptr)
-      return problems_.error(source_, list("joint_force").place,
-                             "joint_force: forces on a cord are of a hanging load, the rig turns a lever");
     const plant::Rig& rig = scenario_.rig;
+    if (!forces.empty() && rig.lever() != nullptr)
+      return problems_.error(source_, list("joint_force").place,
+                             "joint_force: forces on a cord are of a hanging load; the rig turns a lever, "
+                             "which takes joint_torque");
+    if (!scenario_.outer_torques.empty() && !rig.has_angle())
+      return problems_.error(
+          source_, list("joint_torque").place,
+          "joint_torque: torques are of a lever or a pair; a hanging load takes joint_force");
+    check_times("joint_force", forces);
+    check_times("joint_torque", scenario_.outer_torques);
     for (std::size_t i = 0; i < forces.size(); ++i) {
       const auto wrong = [&](const std::string& message) {
         problems_.error(source_, list("joint_force").children[i].place, message);
       };
-      if (i > 0 && forces[i].at_s <= forces[i - 1].at_s) wrong("joint_force: times must ascend");
-      if (forces[i].at_s >= scenario_.duration_s) wrong("joint_force: at must be before the end, duration");
       for (const double load_kg : scenario_.loads_kg) {
         const double pulls_kg = rig.pulled_kg(load_kg) + forces[i].force_N / plant::gravity_m_per_s2;
         const double most_kg = plant::Braid(rig.muscle).largest_load_kg();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <sim/data/scatter.hpp>
+#include <sim/domain/outer_force.hpp>
 #include <sim/run/course.hpp>
 
 namespace mckibben::run {
@@ -27,7 +28,7 @@ constexpr auto givings = std::to_array<Giving>(
      {"contraction", [](auto& drive, auto&, double ratio, auto&) { drive.contraction_ratio = ratio; }},
      {"joint_force", [](auto& drive, auto&, double N, auto&) { drive.joint_force_N = N; }},
      {"joint_torque", [](auto& drive, auto&, double N_m, auto& rig) {
-        drive.joint_force_N = -N_m / rig.joint.wheel_radius_m;
+        drive.joint_force_N = domain::as_force_N(N_m, rig.joint.wheel_radius_m);
       }}});
 static_assert(std::ranges::all_of(plant::signals, [](const plant::Signal& signal) {
   return !signal.may_be_given || std::ranges::find(givings, signal.in_dataset, &Giving::key) != givings.end();

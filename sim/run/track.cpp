@@ -100,6 +100,9 @@ RunPlan plan_of(const domain::Scenario& scenario, double load_kg, std::uint64_t 
                .stream = stream,
                .keep_ledger = true,
                .outer_forces = scenario.outer_forces};
+  for (const domain::OuterTorque& torque : scenario.outer_torques)
+    plan.outer_forces.push_back(
+        {torque.at_s, domain::as_force_N(torque.torque_N_m, scenario.rig.joint.wheel_radius_m)});
   if (plant::Pair* pair = plan.rig.pair()) *pair = plant::with_load_in_hand(*pair, load_kg, scenario.hand_m);
   return plan;
 }

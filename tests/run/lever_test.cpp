@@ -64,9 +64,46 @@ domain::Scenario raised() {
   return scenario;
 }
 
+const ProgressHook in_silence = [](const std::string&, std::size_t, std::size_t) {};
+
+controllers::StepCurrent held_at(double current_mA) {
+  return {.start_mA = current_mA, .moves = {}};
+}
+
+// At rest, with threads that rub or not: torque of the cord and from outside against weight and spring.
+TEST(Lever, ATorqueOfAScenarioTurnsIt) {
+  domain::Scenario scenario = raised();
+  scenario.loads_kg = {1.5};
+  scenario.controllers = {held_at(9.0)};
+  scenario.outer_torques = {{1.0, 1.2}};
+  const Comparison all = compare(scenario, 1, in_silence);
+  ASSERT_EQ(all.runs.front().failure, "");
+  const auto& rows = all.runs.front().recording.samples;
+  const Sample &first = rows.front(), &last = rows.back();
+  EXPECT_EQ(first.joint_torque_N_m, 0.0);
+  EXPECT_NEAR(last.joint_torque_N_m, 1.2, 1e-12);
+  EXPECT_GT(last.angle_rad, first.angle_rad + one_deg);
+  EXPECT_NEAR(last.torque_N_m + 1.2,
+              9.80665 * 0.6 * std::sin(last.angle_rad + 30.0 * one_deg) + 1.5 * last.angle_rad, 2e-3);
+}
+
+TEST(Lever, ATorqueOfAScenarioTurnsAPair) {
+  domain::Scenario scenario = domain::pair_scenario();
+  scenario.duration_s = 5.0;
+  scenario.currents = {{"held", held_at(12.0), held_at(12.0)}};
+  scenario.outer_torques = {{0.5, 3.0}, {2.0, -3.0}};
+  const Comparison all = compare(scenario, 1, in_silence);
+  ASSERT_EQ(all.runs.front().failure, "");
+  const auto& rows = all.runs.front().recording.samples;
+  EXPECT_GT(rows[rows.size() * 3 / 10].angle_rad, one_deg);
+  const Sample& last = rows.back();
+  EXPECT_LT(last.angle_rad, -one_deg);
+  EXPECT_NEAR(last.torque_N_m - 3.0, 2.0 * 9.80665 * 0.25 * std::sin(last.angle_rad), 5e-3);
+}
+
 TEST(Lever, APidRaisesItToTheAngle) {
   const domain::Scenario scenario = raised();
-  const Comparison all = compare(scenario, 1, [](const std::string&, std::size_t, std::size_t) {});
+  const Comparison all = compare(scenario, 1, in_silence);
   ASSERT_EQ(all.runs.size(), 2u);
   const std::vector<Wanted> wanted = wanted_of(scenario);
   EXPECT_NEAR(wanted.front().values.back(), 60.0 * one_deg, 1e-12);
