@@ -118,6 +118,11 @@ class Rider {
   void require_reading() const;
 
   /// Nothing has come or gone from here on.
+  /// Of the joint's angle [rad/s], or of the contraction ratio [1/s].
+  double speed() const {
+    const auto& joint = now.flow.state.joint;
+    return plant_.has_angle() ? plant_.angle_speed_rad_per_s(joint) : joint.contraction_speed_per_s;
+  }
   void open_ledger() { now.flow.ledger = plant_.opened(now.flow.state, now.flow.memory); }
 
   const plant::Plant& plant() const { return plant_; }

@@ -47,6 +47,7 @@ constexpr auto members_of_run = [](auto&& visit, auto& of) {
   visit(recording.imbalance);
   visit(recording.solver);
   visit(recording.largest_contraction_ratio);
+  visit(recording.left_speed);
   visit(recording.failure);
   findings_of(visit, recording.findings);
   visit(recording.driven);
@@ -266,6 +267,8 @@ class Comparing {
       if (run.unreachable.any()) all.push_back(data::warning_of_run(id, run.unreachable.text()));
       if (const std::string stood = limit_warning(run, scenario_.rig); !stood.empty())
         all.push_back(data::warning_of_run(id, stood));
+      if (moves(run.recording.left_speed, scenario_.rig) && scenario_.skip_s.value_or(0.0) == 0.0)
+        all.push_back(data::warning_of_run(id, still_moves(run.recording.left_speed, scenario_.rig)));
       for (const auto& doubt : doubts(run.recording)) all.push_back(data::warning_of_run(id, doubt));
     }
     for (const auto& tuned : result_.tuned)

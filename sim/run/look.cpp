@@ -95,7 +95,6 @@ std::vector<data::Expected> expected_of(const domain::Dataset& data,
 
 void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>& replayed,
                      std::vector<data::Finding>& findings) {
-  constexpr double still_per_s = 2e-3, still_rad_per_s = 0.02;
   if (data.recorded.start != domain::Start::settled || data.recorded.skip_s > 0.0) return;
   const bool angle = data.rig.has_angle();
   bool may_move = !angle;
@@ -108,19 +107,15 @@ void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>
     const Sample& first = replayed[i].recording.samples.front();
     const double speed =
         std::abs(angle ? first.angle_speed_rad_per_s : first.state.joint.contraction_speed_per_s);
-    if (speed <= (angle ? still_rad_per_s : still_per_s)) continue;
+    if (!moves(speed, data.rig)) continue;
     runs.push_back(i);
     fastest = std::max(fastest, speed);
     may_move = may_move && !(data.runs[i].measured && data.runs[i].measured->point_s > 0.0);
   }
   if (runs.empty()) return;
-  findings.push_back(
-      {.runs = std::move(runs),
-       .message = fmt::format("is to begin at rest, and after settling_time ({:.4g} s) still moves at {:.2g} "
-                              "{}: a longer settling_time of the rig{}",
-                              data.rig.settling_time_s, fastest, angle ? "rad/s" : "of its length a second",
-                              may_move ? ", or start: moving" : ""),
-       .severity = data::Severity::doubtful});
+  findings.push_back({.runs = std::move(runs),
+                      .message = still_moves(fastest, data.rig) + (may_move ? ", or start: moving" : ""),
+                      .severity = data::Severity::doubtful});
 }
 
 Look look(domain::Dataset data) {

@@ -1,4 +1,5 @@
 // What a run that came to its end should not be believed without a word.
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,18 @@ void note_slack(Recording& recording, const plant::Rig& rig) {
   const Driven& driven = recording.driven;
   if (rig.has_angle() || driven.length || driven.joint_force) note_slack_of(recording, 1);
   if (driven.pair) note_slack_of(recording, 2);
+}
+
+bool moves(double speed, const plant::Rig& rig) {
+  constexpr double still_per_s = 2e-3, still_rad_per_s = 0.02;
+  return std::abs(speed) > (rig.has_angle() ? still_rad_per_s : still_per_s);
+}
+
+std::string still_moves(double speed, const plant::Rig& rig) {
+  return fmt::format(
+      "is to begin at rest, and after settling_time ({:.4g} s) still moves at {:.2g} {}: a longer "
+      "settling_time of the rig",
+      rig.settling_time_s, std::abs(speed), rig.has_angle() ? "rad/s" : "of its length a second");
 }
 
 std::vector<std::string> doubts(const Recording& recording) {

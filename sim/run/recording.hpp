@@ -47,6 +47,7 @@ struct Recording {
   plant::Imbalance imbalance{};    ///< what that ledger leaves unexplained
   engine::Counters solver;
   double largest_contraction_ratio = 0.0;  ///< at any tick
+  double left_speed = 0.0;  ///< of a run that is to begin at rest, after settling [1/s, of an angle rad/s]
   std::string
       failure{};  ///< why it ends early: the integrator or the controller gave up; empty if it did not
   std::vector<controllers::Finding> findings{};  ///< what the controller found out
@@ -68,6 +69,11 @@ Recording without_load();
 /// Notes where cords would have to push: of a pair or a lever, at a given length, or under a force from
 /// outside.
 void note_slack(Recording& recording, const plant::Rig& rig);
+
+/// Whether a rig at that speed [1/s, of an angle rad/s] does not rest, as nearly as readings tell.
+bool moves(double speed, const plant::Rig& rig);
+/// What there is to say of one that is to begin at rest.
+std::string still_moves(double speed, const plant::Rig& rig);
 
 /// What should not be believed of a run that came to its end, in words: a ledger that does not close, laws
 /// used where no muscle follows them. Empty for nearly all.

@@ -95,6 +95,7 @@ class Run : public ride::BatchItem {
     if (k_ < first_) {
       hold();
     } else {
+      if (k_ == first_) recording_.left_speed = rider_.speed();
       if (k_ == 0) rider_.open_ledger();
       if (!tick() || k_ + 1 >= static_cast<std::int64_t>(plan_.ticks)) return false;
     }

@@ -101,6 +101,23 @@ TEST(Lever, ATorqueOfAScenarioTurnsAPair) {
   EXPECT_NEAR(last.torque_N_m - 3.0, 2.0 * 9.80665 * 0.25 * std::sin(last.angle_rad), 5e-3);
 }
 
+TEST(Lever, ItIsSaidWhereARunDoesNotBeginAtRest) {
+  domain::Scenario scenario = raised();
+  scenario.loads_kg = {1.5};
+  scenario.controllers = {held_at(9.0)};
+  scenario.duration_s = 0.5;
+  const auto says = [&] {
+    std::string all;
+    for (const std::string& warning : compare(scenario, 1, in_silence).warnings) all += warning;
+    return all.find("after settling_time") != std::string::npos;
+  };
+  EXPECT_FALSE(says());
+  scenario.rig.settling_time_s = 0.24;
+  EXPECT_TRUE(says());
+  scenario.skip_s = 0.2;
+  EXPECT_FALSE(says());
+}
+
 TEST(Lever, APidRaisesItToTheAngle) {
   const domain::Scenario scenario = raised();
   const Comparison all = compare(scenario, 1, in_silence);
