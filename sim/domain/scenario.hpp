@@ -165,10 +165,17 @@ struct Scenario {
   template <class Self, class Visitor>
   static void fields_of_one(Self& self, Visitor& visit) {
     visit.required("loads", self.loads_kg, "kg", 0.0, 500.0, "masses of the loads");
+    const auto target = [&](auto& movement, std::string_view meaning) {
+      if (self.rig.valve.seals())
+        visit("target", movement, "nothing follows it; if left out, errors count from 0");
+      else
+        visit.required("target", movement, meaning);
+    };
     if (self.rig.lever() != nullptr)
-      visit.required("target", self.angle, "the movement that is wanted");
+      target(self.angle, "the movement that is wanted");
     else
-      visit.required("target", self.target, "the movement that is wanted; of a lever angles");
+      target(self.target,
+             "the movement that is wanted; of a lever angles; may be left out if a muscle is sealed");
     fields_of_time(self, visit);
     visit_controllers<controllers::SingleSettings>(self, [&](auto& controllers) {
       if (self.rig.valve.seals())

@@ -177,7 +177,8 @@ class ScenarioChecker {
                             fmt::format("two runs would be called {}; choose other names", name));
   }
 
-  /// A sealed muscle: its run goes by that name.
+  /// A sealed muscle: its run goes by that name. What it does is told as an error from 0, unless there is a
+  /// target.
   void let_alone() {
     if (!scenario_.controllers.empty())
       problems_.error(source_, list("controllers").place,
@@ -343,6 +344,14 @@ class ScenarioChecker {
   }
 
   void check_target() {
+    if (root_.find("target") == nullptr) {
+      const auto stays_at_0 = []<class Value>(controllers::TargetOf<Value>& target) {
+        target = controllers::PointsOf<Value>{.points = std::vector<controllers::MoveOf<Value>>(1)};
+      };
+      stays_at_0(scenario_.target);
+      stays_at_0(scenario_.angle);
+      return;
+    }
     if (scenario_.rig.lever() != nullptr)
       return check_lever_target(scenario_, source_, list("target").place, problems_);
     const auto [lowest, highest] =

@@ -55,5 +55,25 @@ joint_force: [{at: 0.5 s, force: 50 N}]
   EXPECT_EQ(controllers::name_of(scenario.controllers[0]), "sealed");
 }
 
+TEST(SealedFile, AScenarioNeedsNoTarget) {
+  for (const char* mechanics : {"{kind: hanging_load}", "{kind: lever}"}) {
+    const std::string text = std::string("schema: mckibben-scenario/1\nloads: [1 kg]\nduration: 1 s\n") +
+                             "rig: {valve: {kind: none}, mechanics: " + mechanics + "}\n";
+    std::vector<Problem> warnings;
+    const Scenario scenario = read_scenario(Source("sealed.yaml", text, ""), warnings);
+    EXPECT_TRUE(warnings.empty());
+    EXPECT_EQ(controllers::range(scenario.target, 1.0, 0.3), std::pair(0.0, 0.0));
+    EXPECT_EQ(controllers::range(scenario.angle, 1.0, 0.3), std::pair(0.0, 0.0));
+    EXPECT_EQ(scenario.controllers.size(), 1u);
+  }
+  std::vector<Problem> warnings;
+  EXPECT_THROW(read_scenario(Source("open.yaml",
+                                    "schema: mckibben-scenario/1\nloads: [1 kg]\nduration: 1 s\n"
+                                    "controllers: [{kind: pid}]\n",
+                                    ""),
+                             warnings),
+               BadInput);
+}
+
 }  // namespace
 }  // namespace mckibben::input
