@@ -29,6 +29,9 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
              channel.signal->of_commands_in.value_or(rig.command_unit()) == rig.command_unit();
     case Needs::valve:
       return driven.pressure[channel.muscle == 2 ? 1 : 0] != GivenPressure::muscle;
+    case Needs::tank:
+      return !rig.effects.get<SupplyDroop>().absent() && !rig.valve.seals() &&
+             driven.pressure[0] == GivenPressure::none;
     case Needs::cord: {
       const Pair* pair = channel.muscle == 2 ? rig.pair() : nullptr;
       const Muscle& muscle = pair != nullptr ? pair->opposite.muscle : rig.muscle;

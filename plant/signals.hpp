@@ -41,6 +41,7 @@ struct Sample : SideSample {
   double read_ratio = 0.0, read_angle_rad = 0.0;        ///< by these counts
   double misread_ratio = 0.0;                           ///< what an encoder shows besides e, before it counts
   double angle_rad = 0.0, angle_speed_rad_per_s = 0.0;  ///< of the joint of a pair or a lever
+  double supply_Pa = 0.0;                               ///< before the valve
   double torque_N_m = 0.0, stiffness_N_m_per_rad = 0.0;
   double joint_force_N = 0.0, joint_torque_N_m = 0.0;  ///< from outside, from here to the next row
   SideSample opposite{};                               ///< muscle 2 of a pair
@@ -82,7 +83,7 @@ enum class Kind { time, input, state, reading };
 enum class Part { joint, muscle };
 /// What a rig must have for a signal to exist: one muscle; or a joint whose angle is read, of two muscles or
 /// a lever, or else whose height is. Outer forces are of these, torques of those. A cord is one that
-/// stretches.
+/// stretches, a tank one whose pressure sinks.
 enum class Needs {
   nothing,
   height,
@@ -93,6 +94,7 @@ enum class Needs {
   valve,
   sensor,
   cord,
+  tank,
   outer_force,
   outer_torque
 };
@@ -206,6 +208,11 @@ inline constexpr auto signals = std::to_array<Signal>({
      .value = [](const Sample& row, std::size_t i) { return row.side_state(i).muscle_pressure_Pa; },
      .may_be_given = true,
      .in_dataset = "muscle_pressure"},
+    {.key = "supply_pressure",
+     .unit = units::bar,
+     .words = "gauge pressure of the supply, which sinks as air is drawn",
+     .needs = Needs::tank,
+     .value = [](const Sample& row, std::size_t) { return row.supply_Pa; }},
     {.key = "force",
      .unit = units::N,
      .words = "force of the cord",
