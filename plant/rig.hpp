@@ -281,8 +281,7 @@ struct RigOf {
     if (valve.seals() || two.valve.seals())
       report("mechanics",
              "a sealed muscle, valve: {kind: none}, is of rigs with one muscle: a pair has a command for "
-             "each of "
-             "two valves");
+             "each of two valves");
     if (friction.memory != two.friction.memory)
       report("mechanics", "friction.memory must be the same on both sides of a pair");
     if (effects.gas_exponent() != two.effects.gas_exponent())
