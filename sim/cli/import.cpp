@@ -69,8 +69,12 @@ std::string rig_from(const fs::path& folder, const std::string& rig) {
 
 int import_tables(const ImportOptions& options) {
   std::vector<domain::InputFile> read;
-  if (!options.rig.empty()) input::read_rig(options.rig, read);
-  const auto found = recognise::recognise(tables_of(options.files), !options.rig.empty());
+  recognise::KnownRig known;
+  if (!options.rig.empty()) {
+    const plant::Rig rig = input::read_rig(options.rig, read);
+    known = {rig.tick_s, rig.muscle.rest_length_m};
+  }
+  const auto found = recognise::recognise(tables_of(options.files), !options.rig.empty(), known);
   for (const auto& table : found.tables) read.push_back(table.input);
   std::string words = "import";
   for (const auto& file : options.files) words += " " + file;
@@ -94,7 +98,7 @@ void add_import(CLI::App& app, Asked& asked) {
       add_verb(app, "import", to_compare,
                "Look at measured tables and write a data set and a rig of them, to be corrected");
   ImportOptions& options = asked.when(verb, import_tables);
-  verb.add_option("files", options.files, "Tables, or folders of them: text, .lvm, .mat")
+  verb.add_option("files", options.files, "Tables, or folders of them: text, .xlsx, .xls, .lvm, .tdms, .mat")
       ->required()
       ->type_name("FILE");
   add_rig(verb, options.rig, "they were measured on (default: one is written, to be filled in)");

@@ -13,6 +13,8 @@
 #include <plant/instruments.hpp>
 #include <sim/data/amount.hpp>
 #include <sim/data/columns.hpp>
+#include <sim/data/gains.hpp>
+#include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
@@ -73,24 +75,6 @@ std::string in_words(const std::string& unit) {
   return unit == "count" ? "counts" : unit;
 }
 
-/// Measured and simulated, row by row.
-struct Compared {
-  std::vector<std::size_t> runs{};
-  Series measured{}, model{};
-
-  /// Without rows that `is_missing` names; nothing if the simulation ended early.
-  template <class IsMissing>
-  void add(std::size_t run, const Series& read, const Series& simulated, const IsMissing& is_missing) {
-    if (read.size() != simulated.size()) return;
-    runs.push_back(run);
-    for (std::size_t k = 0; k < read.size(); ++k) {
-      if (is_missing(k)) continue;
-      measured.push_back(read[k]);
-      model.push_back(simulated[k]);
-    }
-  }
-};
-
 /// Rows in which nothing but the scale differs.
 bool only_scaled(const Compared& rows, double factor) {
   double scaled = 0.0, as_is = 0.0;
@@ -146,7 +130,7 @@ class Columns {
       judged(i, all);
       read_beside(i, Beside::force, beside);
     }
-    if (data_.judged() == domain::Judged::contraction && findings_.empty()) halved(all);
+    if (data_.judged() == domain::Judged::contraction && findings_.empty()) only_gain_or_zero(all);
     if (data_.judged() == domain::Judged::angle) angle(all);
     if (data_.judged() == domain::Judged::force) force(all, false);
     if (const auto which = data_.runs.front().judged_gauge()) judge(pressure(*which), all);
@@ -192,32 +176,13 @@ class Columns {
     if (judged.place.unit == "1") judged.units.push_back({divided_twice, 1e3 * rig.muscle.rest_length_m});
     return judged;
   }
-  /// A decoder that counts every second edge, or every edge twice: nothing but the scale differs.
-  void halved(const Compared& rows) {
+  /// Where nothing but a scale or a zero differs.
+  void only_gain_or_zero(const Compared& rows) {
     if (rows.measured.size() < 2 || range(rows.model) <= moving()) return;
-    const Line line(rows.measured, rows.model);
-    for (const double factor : {0.5, 2.0}) {
-      if (std::abs(std::log(line.slope / factor)) > std::log(of_columns.halved) ||
-          line.correlation < of_columns.alike)
-        continue;
-      double left = 0.0, all = 0.0;
-      for (std::size_t k = 0; k < rows.model.size(); ++k) {
-        left += std::pow(rows.measured[k] / factor - rows.model[k], 2);
-        all += std::pow(rows.model[k], 2);
-      }
-      if (left > of_columns.halved_share * all) continue;
-      ColumnPlace meant = map_["contraction"];
-      meant.factor /= factor;
-      findings_.push_back(
-          {.quantity = "contraction",
-           .runs = rows.runs,
-           .message =
-               fmt::format("contraction is {:.2f} times what pressure and load say, everywhere: are counts "
-                           "per turn {}, as by a decoder that sees other edges? Then columns: {{{}}}, or "
-                           "pulses_per_turn of the rig's encoder",
-                           line.slope, factor < 1.0 ? "halved" : "doubled", line_of("contraction", meant)),
-           .severity = Severity::doubtful});
-    }
+    if (auto found = halved_or_doubled(rows, map_["contraction"]))
+      findings_.push_back(std::move(*found));
+    else if (auto other = other_zero(rows, map_["contraction"], data_.runs.front().ratio_per_unit))
+      findings_.push_back(std::move(*other));
   }
   double moving() const {
     return of_columns.moving_counts * plant::count_height_m(data_.rig) / data_.rig.muscle.rest_length_m;
@@ -298,7 +263,8 @@ class Columns {
       what += fmt::format("{}this looks like {}, not {}", opposite ? ", and " : "", in_words(unit->name),
                           in_words(quantity.place.unit));
     }
-    if (!unit || unit->name != divided_twice) what = mend(what, line_of(quantity.key, meant));
+    if (!unit || unit->name != divided_twice)
+      what = mend(what, unit ? line_in_unit(quantity.key, meant) : line_of(quantity.key, meant));
     if (opposite && data_.rig.pair() != nullptr && quantity.key == "angle")
       what += ", or exchange muscle 1 and muscle 2";
     const double seen = quantity.by_mean ? mean(rows.measured)
@@ -342,7 +308,8 @@ class Columns {
     ColumnPlace amperes = map_["current"];
     amperes.unit = std::string("A");  // g++ 12 warns of a literal
     if (most_mA > 0.0 && most_mA < valve.span_command * of_columns.amperes)
-      find("current", {i}, never, mend("; this looks like amperes, not mA", line_of("current", amperes)));
+      find("current", {i}, never,
+           mend("; this looks like amperes, not mA", line_in_unit("current", amperes)));
     else if (most_mA < valve.zero_command && range(run.contraction_ratio) > moving())
       find("current", {i}, never,
            fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
@@ -359,8 +326,10 @@ class Columns {
     if (!judge(quantity, rows)) return;
     const Line line(rows.measured, rows.model);
     if (range(rows.model) > quantity.moves &&
-        (line.slope < of_columns.least_gauge_slope || line.slope > of_columns.most_gauge_slope))
+        (line.slope < of_columns.least_gauge_slope || line.slope > of_columns.most_gauge_slope)) {
+      if (auto found = other_gain(rows, quantity.key, quantity.place)) findings_.push_back(std::move(*found));
       return;
+    }
     const double atmosphere_Pa = data_.rig.gas.atmosphere_Pa;
     const auto an_atmosphere = [&](double difference_Pa) {
       return std::abs(difference_Pa / atmosphere_Pa - 1.0) < of_columns.atmosphere;
@@ -368,7 +337,8 @@ class Columns {
     if (!an_atmosphere(line.mean_difference) || !an_atmosphere(lowest(rows.measured) - lowest(rows.model)))
       return;
     ColumnPlace meant = quantity.place;
-    if (const Unit* said = quantity.unit_said()) meant.zero += atmosphere_Pa / said->size / meant.factor;
+    if (const std::optional<double> said = size_Pa(meant.unit))
+      meant.zero += atmosphere_Pa / *said / meant.factor;
     find(quantity.key, {i}, quantity.key + " is about one atmosphere too high; ",
          mend("this looks like absolute, not gauge pressure: the zero takes the atmosphere off",
               line_of(quantity.key, meant)));

@@ -77,7 +77,7 @@ class Plausible {
  private:
   const domain::Run& run() const { return data_.runs[run_]; }
   std::string line(const std::string& key, const ColumnPlace& meant) const {
-    return fmt::format("write columns: {{{}}}", line_of(key, meant));
+    return fmt::format("write columns: {{{}}}", line_in_unit(key, meant));
   }
   /// The same of several runs is one finding; numbers are those of the first.
   void find(const std::string& quantity, const std::string& kind, std::string message, Severity severity) {
@@ -100,9 +100,12 @@ class Plausible {
     if (step_s >= limits.longest_step_s && lasts_s > limits.longest_run_s) {
       const std::string said = meant.unit;
       meant.unit = said == "s" ? "ms" : said == "ms" ? "us" : "ns";
+      const std::string seen =
+          fmt::format("lasts {:.3g} h, its rows are {:.3g} s apart: is ", lasts_s / 3600.0, step_s);
       find("time", "long",
-           fmt::format("lasts {:.3g} h, its rows are {:.3g} s apart: is its time in {}, not in {}? Then {}",
-                       lasts_s / 3600.0, step_s, meant.unit, said, line("time", meant)),
+           said == "date" ? seen + "that its clock? Dates may have lost parts of seconds"
+                          : seen + fmt::format("its time in {}, not in {}? Then {}", meant.unit, said,
+                                               line("time", meant)),
            Severity::doubtful);
     }
     std::size_t gaps = 0, widest = 1;
@@ -312,10 +315,11 @@ std::string too_short(const std::vector<double>& time_s, ColumnPlace time) {
   return fmt::format(
       "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is its time in {}, not in {}? Then write "
       "columns: {{{}}}",
-      1e3 * lasts_s, time_s.size(), 1e6 * step_s, time.unit, said, line_of("time", time));
+      1e3 * lasts_s, time_s.size(), 1e6 * step_s, time.unit, said, line_in_unit("time", time));
 }
 
 std::optional<double> size_Pa(std::string_view unit) {
+  unit = unit.substr(0, unit.find_first_of(" ("));  // psi a, bar(abs)
   for (const auto& [name, size] : pressure_units)
     if (unit == name) return size;
   return std::nullopt;

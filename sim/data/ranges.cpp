@@ -36,8 +36,9 @@ std::string clock_unit(double ticks, std::string_view said) {
       {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}, {"min", 60.0}}};
   const auto of = std::ranges::find(units, said, &std::pair<std::string_view, double>::first);
   if (of == units.end()) return "";
-  for (const auto& [unit, size_s] : units)
-    if (unit != said && std::abs(ticks * size_s / of->second - 1.0) < 1e-3) return std::string(unit);
+  for (const auto& [unit, size_s] : units)  // a step of 0.2 ms of a tick of 12 ms is no minute
+    if (unit != said && unit != "min" && std::abs(ticks * size_s / of->second - 1.0) < 1e-3)
+      return std::string(unit);
   return "";
 }
 
@@ -90,7 +91,7 @@ class Ranges {
     return found != columns_.end() ? found->values : nullptr;
   }
   static std::string other(const std::string& key, const ColumnPlace& place) {
-    return fmt::format("is it in another unit or another column? columns: {{{}}} would say so",
+    return fmt::format("it is read as {{{}}}: is that its column, and are unit, zero and factor right?",
                        line_of(key, place));
   }
 
@@ -135,11 +136,11 @@ class Ranges {
           "reading, and with factor: -1 if it falls as the muscle contracts",
           line_of("contraction", meant));
     } else {
-      if (meant.unit == "1") meant.unit = "mm";
+      meant.unit = std::string(meant.unit == "mm" ? "count" : "mm");
       hint = fmt::format(
           "is it in another unit (\"%\", mm, deg, count), or its zero elsewhere? Then write so, "
           "as in columns: {{{}}}",
-          line_of("contraction", meant));
+          line_in_unit("contraction", meant));
     }
     look(lowest_ratio, highest_ratio, "what a muscle can do", hint);
   }
@@ -158,10 +159,10 @@ class Ranges {
     const bool given = meant.as == domain::Role::input;
     const char* can = quantity.channel.signal->key == "muscle_pressure" ? "what a muscle can be given"
                                                                         : "what a valve can give";
-    meant.unit = meant.unit == "kPa" ? "Pa" : "kPa";
+    meant.unit = std::string(meant.unit == "kPa" ? "Pa" : "kPa");
     look(given ? lowest_given_bar : lowest_read_bar, highest_bar, given ? can : "what a gauge can show",
          fmt::format("is it in another unit (kPa, mbar, Pa, psi)? Then write so, as in columns: {{{}}}",
-                     line_of(quantity.key, meant)));
+                     line_in_unit(quantity.key, meant)));
   }
 
   void look(double lowest, double highest, std::string_view meaning, const std::string& hint) {
@@ -169,6 +170,10 @@ class Ranges {
     const std::string_view name = columns_[at_].name;
     const auto outside = [&](double value) { return value < lowest || value > highest; };
     const auto count = std::ranges::count_if(values, outside);
+    const auto first = std::ranges::find_if(values, outside);
+    const bool marks =
+        2 * count < static_cast<std::ptrdiff_t>(values.size()) &&
+        std::ranges::all_of(values, [&](double value) { return !outside(value) || value == *first; });
     for (std::size_t row = 0; row < values.size(); ++row) {
       if (!outside(values[row])) continue;
       std::string message = fmt::format("{} = {} is out of range: {:.6g} to {:.6g} ({})", name,
@@ -179,8 +184,11 @@ class Ranges {
           if (value < least) least = value;
           if (value > most) most = value;
         }
-        message += fmt::format(", as in {} of {} rows, which go from {:.6g} to {:.6g}; {}", count,
-                               values.size(), least, most, hint);
+        if (marks)
+          message += ": does it stand for readings that are missing? Then leave these cells empty";
+        else
+          message += fmt::format(", as in {} of {} rows, which go from {:.6g} to {:.6g}; {}", count,
+                                 values.size(), least, most, hint);
       }
       found_.push_back({at_, row, std::move(message)});
       if (count > few_numbers) return;
@@ -202,6 +210,14 @@ ColumnMap with_our_names(ColumnMap map, plant::CommandUnit commands) {
     if (ColumnPlace& place = map[quantity]; place.absent())
       place = {quantity.column, std::string(quantity.unit())};
   return map;
+}
+
+std::string line_in_unit(std::string_view quantity, const ColumnPlace& meant) {
+  std::string line = line_of(quantity, meant);
+  const domain::Quantity* of = domain::find_quantity(quantity);
+  const bool ours = of != nullptr && meant.column == of->column && meant.unit == of->unit();
+  if (meant.factor == 1.0 && !ours) line.insert(line.size() - 1, ", factor: 1");
+  return line;
 }
 
 std::vector<WrongNumber> check_ranges(std::span<const ReadColumn> columns, const ColumnMap& map,
@@ -228,7 +244,7 @@ std::optional<WrongNumber> check_clock(const Series& time_s, const ColumnMap& ma
         0, 1,
         fmt::format("time_s = {}: its rows are {:.6g} s apart, the rig's ticks {:.6g} s; this looks "
                     "like {}, not {}; write columns: {{{}}}",
-                    write_number(time_s[1]), step_s, tick_s, unit, said, line_of("time", meant))};
+                    write_number(time_s[1]), step_s, tick_s, unit, said, line_in_unit("time", meant))};
   }
   if (right && time_s.front() != 0.0 && meant.unit == "s" && meant.factor == 1.0) {
     meant.zero += time_s.front();

@@ -16,6 +16,10 @@ namespace mckibben::data {
 /// With our names and units where it says none.
 domain::ColumnMap with_our_names(domain::ColumnMap map, plant::CommandUnit commands);
 
+/// The line of a column in another unit than was said, with its factor, also if it is 1: then a heading that
+/// says the old unit counts no more.
+std::string line_in_unit(std::string_view quantity, const domain::ColumnPlace& meant);
+
 /// A column of a run, in our unit.
 struct ReadColumn {
   std::string_view name;  ///< current_mA

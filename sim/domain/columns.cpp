@@ -88,6 +88,12 @@ std::string line_of(std::string_view quantity, const ColumnPlace& place) {
   if (place.factor != 1.0) line += ", factor: " + write_number(place.factor);
   if (place.as != Role::reading) line += ", as: " + std::string(plant::name_of(place.as));
   if (!place.time.empty()) line += ", time: " + yaml_scalar(place.time);
+  if (!place.where.absent()) {
+    std::string cells;
+    for (const auto& [column, text] : place.where.cells)
+      cells += (cells.empty() ? "" : ", ") + yaml_scalar(column) + ": " + yaml_scalar(text);
+    line += ", where: {" + cells + '}';
+  }
   return line + '}';
 }
 

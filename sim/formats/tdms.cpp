@@ -134,7 +134,10 @@ class Tdms {
       auto next = sizes.number<std::uint64_t>();
       const auto raw = sizes.number<std::uint64_t>();
       bytes.remove_prefix(lead_in_bytes);
-      if (next > bytes.size()) next = bytes.size();  // the program that wrote it was stopped
+      if (next > bytes.size()) {  // the program that wrote it was stopped
+        next = bytes.size();
+        cut_off_ = true;
+      }
       if (raw > next) cut_off();
       if ((contents & daqmx) != 0)
         throw BadFile("it holds raw DAQmx data; export it as text, or save it scaled");
@@ -145,6 +148,7 @@ class Tdms {
     }
   }
   const std::vector<Channel>& channels() const { return channels_; }
+  bool is_cut_off() const { return cut_off_; }
 
  private:
   void metadata(Bytes bytes, std::uint32_t contents) {
@@ -222,6 +226,7 @@ class Tdms {
     channel.values.push_back(bytes.value(channel.type));
   }
 
+  bool cut_off_ = false;
   std::vector<Channel> channels_;
   std::vector<std::size_t> active_;  ///< whose values the next segment holds
   std::map<std::string, std::size_t> known_;
@@ -285,7 +290,11 @@ std::vector<Sheet> sheets_of_tdms(std::string_view bytes) {
       columns.push_back({channel.name, channel.type == type_stamp ? "s" : channel.unit, channel.values.size(),
                          channel.values, 0.0, 0.0});
     }
-    if (!columns.empty()) sheets.push_back(sheet_of(group, columns));
+    if (columns.empty()) continue;
+    sheets.push_back(sheet_of(group, columns));
+    if (file.is_cut_off())
+      sheets.back().text.insert(0, fmt::format("# rows before the file is cut off: {}\n",
+                                               std::ranges::max_element(columns, {}, &Written::rows)->rows));
   }
   return sheets;
 }

@@ -9,6 +9,7 @@
 #include <sim/domain/number.hpp>
 #include <sim/input/arranged.hpp>
 #include <sim/input/cells.hpp>
+#include <sim/input/column_units.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/suggest.hpp>
 
@@ -95,6 +96,7 @@ void add_cuts(const std::vector<double>& labels, std::vector<std::size_t>& parts
 bool begins_anew(const std::vector<double>& time, std::size_t begin, std::size_t row) {
   constexpr std::size_t least_rows = 3;
   if (row < begin + least_rows || row + 1 >= time.size() || time[row + 1] < time[row]) return false;
+  if (time[row + 1] > time[row - 1]) return false;  // a single stamp is wrong
   const double passed = time[row - 1] - time[begin];
   return passed > 0.0 && time[row - 1] - time[row] > falls_back * passed;
 }
@@ -230,16 +232,25 @@ std::size_t spread(std::vector<double>& stamps) {
       static_cast<double>(repeats) < least_share * static_cast<double>(stamps.size()) ||
       stamps.front() == stamps.back())
     return 0;
-  for (std::size_t row = 0; row < stamps.size();) {
-    std::size_t end = row + 1;
-    while (end < stamps.size() && stamps[end] == stamps[row]) ++end;
-    const std::size_t rows = end - row;
-    const double before = row > 0 ? stamps[row] - stamps[row - 1] : 0.0;  // of rows that lie evenly already
-    const double gap = end < stamps.size() ? stamps[end] - stamps[row] : before * static_cast<double>(rows);
-    const double begin = stamps[row];
-    for (std::size_t k = row + 1; k < end; ++k)
-      stamps[k] = begin + gap * static_cast<double>(k - row) / static_cast<double>(rows);
-    row = end;
+  // Groups of one stamp; those between the first and the last say how far apart rows are.
+  std::vector<std::size_t> begins;
+  for (std::size_t row = 0; row < stamps.size(); ++row)
+    if (row == 0 || stamps[row] != stamps[row - 1]) begins.push_back(row);
+  const std::size_t last = begins.back(), groups = begins.size();
+  const double inner =
+      groups > 2 ? (stamps[last] - stamps[begins[1]]) / static_cast<double>(last - begins[1]) : 0.0;
+  const std::vector<double> read = stamps;
+  for (std::size_t group = 0; group < groups; ++group) {
+    const std::size_t row = begins[group], end = group + 1 < groups ? begins[group + 1] : stamps.size();
+    const auto rows = static_cast<double>(end - row);
+    const bool is_last = group + 1 == groups;
+    const double whole =
+        is_last ? (groups > 1 ? read[row] - read[begins[group - 1]] : 0.0) : read[end] - read[row];
+    double step =
+        is_last && inner == 0.0 ? whole / static_cast<double>(row - begins[group - 1]) : whole / rows;
+    if (inner > 0.0 && (group == 0 || is_last)) step = std::min(step, inner);  // it may be a part of one
+    const double first = group == 0 ? read[row] + whole - step * rows : read[row];
+    for (std::size_t k = row; k < end; ++k) stamps[k] = first + step * static_cast<double>(k - row);
   }
   return repeats;
 }
@@ -282,9 +293,13 @@ void merge_clocks(Table& table, const ColumnMap& map, plant::CommandUnit command
   if (!own || common == nullptr) return;
   std::vector<double> instants;
   for (Table::Column& column : table.columns) {
+    if (column.name == stamps_name || column.kind == CellKind::label) continue;
     const auto& quantities = domain::quantities(commands);
-    const auto found = std::ranges::find(quantities, column.name, &domain::Quantity::column);
-    if (column.name == stamps_name || column.kind == CellKind::label || found == quantities.end()) continue;
+    const domain::Quantity* found = named_quantity(column.name, map, commands);
+    if (const auto ours = std::ranges::find(quantities, column.name, &domain::Quantity::column);
+        found == nullptr && ours != quantities.end())
+      found = &*ours;  // under its own name
+    if (found == nullptr) continue;
     const ColumnPlace& place = map[*found];
     const Table::Column* clock = place.time.empty() ? common : table.find(clock_name(found->key));
     const Filter counts(table, found->key, place.where);

@@ -74,7 +74,8 @@ std::optional<std::string> respelt(std::string_view cell) {
   const bool plain = cell.find_first_not_of("0123456789.,+-eE") == std::string_view::npos;
   const std::size_t begin = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
   const bool bare_point = begin + 1 < cell.size() && is_sign(cell[begin]) && is_number_digit(cell[begin + 1]);
-  if (cell.size() > longest_shown || (plain && !bare_point)) return std::nullopt;
+  const bool padded = begin + 1 < cell.size() && cell[begin] == '0' && is_number_digit(cell[begin + 1]);
+  if (cell.size() > longest_shown || (plain && !bare_point && !padded)) return std::nullopt;
   std::string text(cell);
   for (const char* end : {" #", "\t#", "\xC2\xB1", "+/-", "+-"})
     if (const std::size_t at = text.find(end); at != std::string::npos && at > 0)
@@ -83,6 +84,9 @@ std::optional<std::string> respelt(std::string_view cell) {
     if (text.starts_with(minus)) text = "-" + text.substr(3);
   if (text.empty()) return std::nullopt;
   const std::size_t first = text[0] == '-' || text[0] == '+' ? 1 : 0;
+  if (padded)
+    while (first + 1 < text.size() && text[first] == '0' && is_number_digit(text[first + 1]))
+      text.erase(first, 1);
   if (first + 1 < text.size() && is_sign(text[first]) && is_number_digit(text[first + 1]))
     text.insert(first, "0");
   if (!is_number_digit(text[std::min(first, text.size() - 1)])) return std::nullopt;
@@ -111,31 +115,41 @@ std::vector<Cell> split_at_blanks(std::string_view line) {
   return cells;
 }
 
-/// The value of 1,234.5 or 1.234.567,8: groups of three digits, then the other sign.
-std::optional<double> with_thousands(std::string_view text) {
-  const std::size_t decimal = text.find_last_of(".,"), first = text.find_first_of(".,");
-  if (decimal == std::string_view::npos || first == decimal || text[first] == text[decimal])
-    return std::nullopt;
-  std::string plain;
-  std::size_t group = 0;
-  for (std::size_t i = 0; i < decimal; ++i) {
-    if (text[i] != text[first]) {
-      plain += text[i];
+/// Digits in groups of three between `mark`: 12,345.
+bool in_groups(std::string_view digits, char mark) {
+  std::size_t group = 0, groups = 0;
+  for (std::size_t i = digits.starts_with('-') || digits.starts_with('+') ? 1 : 0; i < digits.size(); ++i) {
+    if (digits[i] != mark) {
+      if (!is_number_digit(digits[i]) || (groups == 0 && group == 0 && digits[i] == '0')) return false;
       ++group;
       continue;
     }
-    if (i > first && group != 3) return std::nullopt;
+    if (group == 0 || group > 3 || (groups > 0 && group != 3)) return false;
+    ++groups;
     group = 0;
   }
-  if (group != 3) return std::nullopt;
-  return parse_number(plain + '.' + std::string(text.substr(decimal + 1)));
+  return groups > 0 && group == 3;
 }
 
-/// The value of 12,345: groups of three digits, where the decimal sign is known to be a point.
-std::optional<double> in_thousands(std::string_view text) {
-  if (text.find(',') == std::string_view::npos || text.find('.') != std::string_view::npos)
-    return std::nullopt;
-  return with_thousands(std::string(text) + ".0");
+char other_sign(char sign) {
+  return sign == ',' ? '.' : ',';
+}
+
+/// How a number without its sign, exponent and unit is spelled.
+enum class Spelled { digits, decimal_point, decimal_comma, group_after_comma, group_after_point };
+std::optional<Spelled> spelled(std::string_view number) {
+  const std::size_t at = number.find_last_of(".,");
+  if (at == std::string_view::npos) return Spelled::digits;
+  const char sign = number[at];
+  const bool point = sign == '.';
+  if (in_groups(number, sign)) {
+    if (number.find(sign) != at) return point ? Spelled::decimal_comma : Spelled::decimal_point;
+    return point ? Spelled::group_after_point : Spelled::group_after_comma;
+  }
+  const std::string_view whole = number.substr(0, at);
+  const bool plain = whole.find_first_of(".,") == std::string_view::npos;
+  if (!plain && !in_groups(whole, other_sign(sign))) return std::nullopt;
+  return point ? Spelled::decimal_point : Spelled::decimal_comma;
 }
 
 }  // namespace
@@ -283,28 +297,59 @@ std::optional<double> NumberReader::read(std::string_view name, const Cell& cell
     problem = fmt::format("{} is missing here", name);
     return std::nullopt;
   }
-  const std::size_t at = cell.text.find_first_of(".,");
-  if (const auto value = with_thousands(cell.text)) {  // which sign is which stands in the number itself
-    if (const char decimal = cell.text[cell.text.find_last_of(".,")]; sign_ == '\0' || sign_ == decimal) {
-      sign_ = decimal;
-      return value;
+  const std::size_t first = cell.text.find_first_of(".,"), last = cell.text.find_last_of(".,");
+  if (sign_ == '\0' && last != std::string_view::npos) sign_ = cell.text[last];
+  std::string plain(cell.text);
+  if (const std::size_t whole = cell.text[std::min(last, plain.size() - 1)] == sign_ ? last : plain.size();
+      first < whole && in_groups(cell.text.substr(0, whole), other_sign(sign_)))
+    std::erase(plain, other_sign(sign_));
+  if (sign_ == ',') {
+    if (plain.find('.') != std::string::npos &&
+        plain.find_first_not_of("0123456789.+-eE") == std::string::npos) {
+      problem = fmt::format("{}: {} is not a number: the decimal sign of this file is a comma", name, shown);
+      return std::nullopt;
     }
+    std::replace(plain.begin(), plain.end(), ',', '.');
   }
-  if (sign_ == '.')
-    if (const auto value = in_thousands(cell.text)) return value;
-  const char sign = at == std::string_view::npos ? '\0' : cell.text[at];
-  if (sign_ == '\0') sign_ = sign;
-  if (sign_ != ',' || sign == '\0') {
-    const auto value = parse_number(cell.text);
-    if (!value) problem = fmt::format("{}: {}", name, why_no_number(shown));
-    return value;
-  }
-  std::string with_point(cell.text);
-  with_point[at] = '.';
-  const auto value = sign == ',' ? parse_number(with_point) : std::nullopt;
-  if (!value)
-    problem = fmt::format("{}: {} is not a number: the decimal sign of this file is a comma", name, shown);
+  const auto value = parse_number(plain);
+  if (!value) problem = fmt::format("{}: {}", name, why_no_number(shown));
   return value;
+}
+
+void Spelling::look_at(std::string_view text) {
+  std::string unit;
+  Cell cell{text, 0};
+  take_unit(cell, unit);
+  const std::optional<std::string> other = respelt(cell.text);
+  std::string_view number = other ? std::string_view(*other) : cell.text;
+  number = number.substr(0, number.find_first_of("eE"));
+  if (number.empty() || number.find_first_not_of("0123456789.,+-") != std::string_view::npos) return;
+  const auto how = spelled(number);
+  if (!how) return;
+  switch (*how) {
+    case Spelled::digits:
+      longest_ = std::max(longest_, number.size() - (is_number_digit(number.front()) ? 0 : 1));
+      return;
+    case Spelled::decimal_point:
+      ++points_;
+      return;
+    case Spelled::decimal_comma:
+      ++commas_;
+      return;
+    case Spelled::group_after_point:
+    case Spelled::group_after_comma:
+      if (group_.empty()) group_ = text.substr(0, longest_shown);
+      mark_ = *how == Spelled::group_after_point ? '.' : ',';
+  }
+}
+
+char Spelling::decimal() const {
+  return points_ + commas_ == 0 ? '\0' : points_ >= commas_ ? '.' : ',';
+}
+
+char Spelling::goes_on() const {
+  constexpr std::size_t of_a_group = 3;
+  return longest_ == of_a_group && !group_.empty() ? other_sign(mark_) : '\0';
 }
 
 }  // namespace mckibben::input

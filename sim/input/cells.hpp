@@ -31,16 +31,34 @@ bool is_number_like(std::string_view text);
 /// A unit as a heading shows it, "[mA]" or "mA"; empty if it is none that anything here is measured in.
 std::string unit_word(std::string_view text);
 
-/// Reads the numbers of one table, all with the same decimal sign.
+/// Reads numbers with one decimal sign; the other stands between thousands.
 class NumberReader {
  public:
-  /// `sign`: a point, a comma, or 0 for that which comes first.
+  /// `sign`: a point, a comma, or 0 for the last sign of the first number that has one.
   explicit NumberReader(char sign = '.') : sign_(sign) {}
   /// The number in a cell; otherwise none, and `problem` says why.
   std::optional<double> read(std::string_view name, const Cell& cell, std::string& problem);
 
  private:
   char sign_;
+};
+
+/// How the numbers of a column are spelled.
+class Spelling {
+ public:
+  void look_at(std::string_view text);
+  /// The sign before its decimals; 0: none of its numbers tells it.
+  char decimal() const;
+  /// That of a column that goes on from 996 to 1,008, where the sign stands between thousands; else 0.
+  char goes_on() const;
+  /// Its first number that may be either, such as 50.335, and the sign in it; empty: there is none.
+  const std::string& group() const { return group_; }
+  char mark() const { return mark_; }
+
+ private:
+  std::size_t points_ = 0, commas_ = 0, longest_ = 0;  ///< decimals; digits of the longest without a sign
+  char mark_ = '.';
+  std::string group_;
 };
 
 /// Reads the stamps of one table. If the first is so large that it counts since 1970, or since the recorder

@@ -71,6 +71,13 @@ std::string problem_of(const domain::Quantity& quantity, const std::string& unit
 
 }  // namespace
 
+const domain::Quantity* named_quantity(std::string_view column, const ColumnMap& map,
+                                       plant::CommandUnit commands) {
+  for (const domain::Quantity& each : domain::quantities(commands))
+    if (each.column == column && !map[each].absent()) return &each;
+  return nullptr;
+}
+
 void check_units(const Source& source, const Node& map, Problems& problems) {
   for (const Node& entry : map.children) {
     const Node* unit = entry.find("unit");
@@ -140,11 +147,9 @@ void convert_own_clock(Table& table, const domain::Quantity& quantity, const Col
 }  // namespace
 
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) {
-  const auto& all = domain::quantities(rig.command_unit());
   for (Table::Column& column : table.columns) {
-    const auto found = std::ranges::find_if(
-        all, [&](const domain::Quantity& each) { return each.column == column.name && !map[each].absent(); });
-    if (found == all.end()) continue;
+    const domain::Quantity* found = named_quantity(column.name, map, rig.command_unit());
+    if (found == nullptr) continue;
     const ColumnPlace& place = map[*found];
     convert_own_clock(table, *found, map["time"]);
     if (place.zero != 0.0 || place.factor != 1.0)

@@ -14,6 +14,11 @@ namespace mckibben::input {
 
 using domain::ColumnMap, domain::ColumnPlace, domain::line_of;
 
+/// The quantity that a column of a table was read as, of those that the map names; null: of none. Commands
+/// have two keys.
+const domain::Quantity* named_quantity(std::string_view column, const ColumnMap& map,
+                                       plant::CommandUnit commands);
+
 /// Checks the units of a map; `map` is the value of `columns`.
 void check_units(const Source& source, const Node& map, Problems& problems);
 

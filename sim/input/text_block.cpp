@@ -47,8 +47,9 @@ Block longest_block(const Source& source, char separator, std::size_t from) {
     const std::vector<Cell> cells = split_cells(text, separator);
     const Numbers found = numbers_in(cells);
     if (!found.is_row()) {
-      // A word between rows that is in no cell is a remark, as kind_of has it.
-      const bool apart = separator != ' ' && text.find(separator) == std::string_view::npos;
+      // Words between rows that are no cells of theirs are a remark, as kind_of has it.
+      const bool apart = separator != ' ' && (text.find(separator) == std::string_view::npos ||
+                                              (found.numbers == 0 && cells.size() != now.raw));
       if (!apart || now.raw < 2) close();
       continue;
     }

@@ -263,12 +263,40 @@ std::vector<Cell> row_cells(const Source& source, const TextLayout& layout, std:
   return cells;
 }
 
+namespace {
+
+/// Files that were put one behind the other bring each its mark.
+std::string_view without_order_mark(std::string_view line) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return line.starts_with(mark) ? line.substr(mark.size()) : line;
+}
+
+/// A line that begins with a word where rows have a number: words between rows, or the headings of another
+/// table.
+std::optional<Line> kind_of_words(std::string_view text, const TextLayout& layout) {
+  const std::size_t first = text.find_first_not_of(" \t\"");
+  const auto begin = first == std::string_view::npos ? ' ' : static_cast<unsigned char>(text[first]);
+  if (!layout.begins_with_number || (std::isalpha(begin) == 0 && begin < 0x80)) return std::nullopt;
+  const std::vector<Cell> cells = split_cells(text, layout.separator);
+  if (cells.empty() || is_missing(cells.front()) || is_number_like(cells.front().text)) return std::nullopt;
+  const std::size_t size = trimmed_size(cells);
+  const bool numbers = layout.separator != ' ' && numbers_in(cells).numbers > 0;
+  if (numbers) return std::nullopt;
+  if (size != layout.headings.size() && size != layout.usual_cells) return Line::remark;
+  if (std::ranges::any_of(cells, [](const Cell& cell) { return names_time(cell.text); }))
+    return Line::another;
+  return std::nullopt;
+}
+
+}  // namespace
+
 Line kind_of(const Source& source, const TextLayout& layout, std::size_t line) {
-  const std::string_view text = source.line(line);
+  const std::string_view text = without_order_mark(source.line(line));
   if (is_blank(text)) return Line::blank;
   for (std::size_t head = layout.heading; head > 0 && head < layout.first_row; ++head)
-    if (text == source.line(head)) return Line::heading;
+    if (without_order_mark(source.line(head)) == text) return Line::heading;
   if (is_marked(text)) return Line::remark;
+  if (const auto words = kind_of_words(text, layout)) return *words;
   const bool has_separator = layout.separator != ' ' && text.find(layout.separator) != std::string_view::npos;
   if (has_separator || layout.headings.size() < 2) return Line::row;
   const bool has_number =
@@ -314,6 +342,9 @@ TextLayout layout_of(const Source& source, std::span<const WantedColumn> wanted)
   layout.separator = block.separator;
   layout.first_row = layout.head = block.first;
   layout.cells = block.raw;
+  const std::vector<Cell> first = split_cells(source.line(block.first), block.separator);
+  layout.begins_with_number =
+      !first.empty() && !is_missing(first.front()) && is_number_like(first.front().text);
   if (const Head* heading = heads.heading()) {
     layout.heading = heading->line;
     layout.head = heads.list().front().line;
@@ -324,6 +355,7 @@ TextLayout layout_of(const Source& source, std::span<const WantedColumn> wanted)
     layout.heading = 0;
     for (std::size_t i = 0; i < block.width; ++i) layout.headings[i] = std::to_string(i + 1);
   }
+  layout.usual_cells = std::min(block.raw, layout.headings.size());
   check_belongs(source, block, layout);
   if (layout.cells > most_columns) return layout;
   // Lines of words below the last that says units are no part of the head: rows, and wrong ones.

@@ -12,6 +12,7 @@
 #include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/readers.hpp>
+#include <sim/input/spelling.hpp>
 #include <sim/input/suggest.hpp>
 #include <sim/input/text_layout.hpp>
 
@@ -56,8 +57,8 @@ Table find_columns(const Source& source, const TextLayout& layout, std::span<con
 /// Reads the cells of one column.
 class ColumnReader {
  public:
-  ColumnReader(Table::Column& column, NumberReader& numbers, EpochReader& epoch)
-      : column_(column), numbers_(numbers), epoch_(epoch) {}
+  ColumnReader(Table::Column& column, char decimal, EpochReader& epoch)
+      : column_(column), numbers_(decimal), epoch_(epoch) {}
 
   /// False with a problem; what is missing where it may miss is none.
   bool read(const Cell& cell, std::string& problem) {
@@ -87,7 +88,7 @@ class ColumnReader {
   }
 
   Table::Column& column_;
-  NumberReader& numbers_;
+  NumberReader numbers_;
   EpochReader& epoch_;
   ClockReader clock_;
 };
@@ -102,8 +103,8 @@ std::string width_problem(const std::vector<Cell>& cells, const TextLayout& layo
 
 /// The numbers of a column in the rows of a table; NaN where there is none.
 std::vector<double> numbers_of(const Source& source, const TextLayout& layout, const Table& table,
-                               std::size_t index) {
-  NumberReader numbers('\0');
+                               std::size_t index, char decimal) {
+  NumberReader numbers(decimal);
   EpochReader epoch;
   std::string problem;
   std::vector<double> values;
@@ -137,7 +138,7 @@ bool differ(const std::vector<double>& stamps, const std::vector<double>& others
 }
 
 /// The clock that stands before a quantity is that quantity's, or says the same as the one that is read.
-void check_clocks(const Source& source, const TextLayout& layout, const Table& table,
+void check_clocks(const Source& source, const TextLayout& layout, const Look& look, const Table& table,
                   TableProblems& problems) {
   const Table::Column* time = table.find("time_s");
   if (time == nullptr || time->kind == CellKind::date || problems.count() > 0) return;
@@ -151,7 +152,7 @@ void check_clocks(const Source& source, const TextLayout& layout, const Table& t
     if (&column == time || column.kind != CellKind::number) continue;
     const std::size_t clock = clock_of(column);
     if (clock == time->index || column.own_clock ||
-        !differ(time->values, numbers_of(source, layout, table, clock)))
+        !differ(time->values, numbers_of(source, layout, table, clock, look.columns[clock].decimal)))
       continue;
     problems.add(
         source.place(layout.heading, layout.offsets[clock]),
@@ -191,10 +192,20 @@ Table read_text(const Source& source, std::span<const WantedColumn> wanted, Tabl
   if (layout.footer > 0)
     problems.note({layout.footer, 1},
                   "this line and those below begin with a word, where rows have a number: not read");
-  NumberReader numbers('\0');
+  const Look look = look_at(source, layout);
+  if (look.another_heading > 0) problems.add({look.another_heading, 1}, std::string(another_table));
+  const Table::Column* const time = table.find("time_s");
+  const bool has_stamps = time != nullptr && time->kind != CellKind::number;
+  const bool leaves_out = look.short_rows > 0 && has_stamps;
+  if (look.blank_cells > 0 && has_stamps)
+    problems.add({look.blank_cells, 1}, std::string(lost_between_blanks));
+  if (problems.count() > 0) return table;
+  if (leaves_out)
+    problems.note({look.first_short, 1}, look.note_of_short_rows(source.line_in_file(look.first_short)));
   EpochReader epoch;
   std::vector<ColumnReader> readers;
-  for (Table::Column& column : table.columns) readers.emplace_back(column, numbers, epoch);
+  for (Table::Column& column : table.columns)
+    readers.emplace_back(column, look.columns[column.index].decimal, epoch);
   std::string problem;
   bool began = false;
   for (std::size_t line = layout.first_row; line <= layout.last_row; ++line) {
@@ -206,6 +217,7 @@ Table read_text(const Source& source, std::span<const WantedColumn> wanted, Tabl
     }
     began = true;
     const std::vector<Cell> cells = row_cells(source, layout, line);
+    if (leaves_out && look.lacks_cells(layout, cells)) continue;
     const bool whole = !cells.empty() && cells.size() <= layout.headings.size();
     if (!whole) problems.add({line, 1}, width_problem(cells, layout));
     table.lines.push_back(line);
@@ -218,7 +230,7 @@ Table read_text(const Source& source, std::span<const WantedColumn> wanted, Tabl
   if (table.lines.empty())
     problems.add({},
                  layout.heading > 0 ? "there are no rows below the header" : "there are no numbers in it");
-  check_clocks(source, layout, table, problems);
+  check_clocks(source, layout, look, table, problems);
   if (const std::string note = note_of_thinned(source); !note.empty() && problems.count() == 0)
     problems.note({table.lines.front(), 1}, note);
   if (epoch.taken_off() && problems.count() == 0)

@@ -70,6 +70,19 @@ bool are_late(const Values& a, const Values& b) {
 Told unit_of(const UnknownColumn& column, const Heading& heading, const SaidStep& said) {
   if (column.is_date) return {std::string(input::date_unit), "it holds dates"};
   const std::string unit = unit_of_epoch(column.epoch);
+  if (!heading.other_unit.empty())
+    return left_open(
+        fmt::format("its heading says {}, the line below it {}: which?", heading.other_unit, heading.unit));
+  if (heading.unit_fits && said.step_s > 0.0) {
+    constexpr double alike = 1.02;
+    const Clock clock = clock_of(column.values);
+    Values step{clock.ascends ? clock.step_s : 0.0};
+    input::convert_units(step, heading.unit, "s");
+    if (const double ratio = step.front() / said.step_s;
+        step.front() > 0.0 && (ratio > alike || alike * ratio < 1.0))
+      return left_open(fmt::format("the table says {}, so that rows are {:.6g} ms apart; and {}",
+                                   heading.unit, 1e3 * step.front(), said.reason));
+  }
   if (heading.unit_fits && (unit.empty() || unit == heading.unit))
     return {heading.unit, fmt::format("the table says {}", heading.unit)};
   if (heading.unit_fits)
@@ -79,9 +92,11 @@ Told unit_of(const UnknownColumn& column, const Heading& heading, const SaidStep
   const Clock clock = clock_of(column.values);
   if (said.step_s > 0.0 && std::abs(clock.step_s / said.step_s - 1.0) < 1e-3)
     return {"s", fmt::format("its rows are {:.6g} apart, and {}", clock.step_s, said.reason)};
-  return left_open(
-      fmt::format("the table says no unit; rows are {:.6g} of it apart: s, ms, us{}?", clock.step_s,
-                  clock.step_s < 1e-3 && clock.begin_s > 1e4 ? ", or d, as Excel counts days" : ""));
+  return left_open(fmt::format(
+      "the table says {}; rows are {:.6g} of it apart: s, ms, us{}?",
+      heading.unknown.empty() ? "no unit"
+                              : fmt::format("({}), which is no unit that is known here", heading.unknown),
+      clock.step_s, clock.step_s < 1e-3 && clock.begin_s > 1e4 ? ", or d, as Excel counts days" : ""));
 }
 
 ColumnGuess guess_of_time(const UnknownColumn& column, const Heading& heading, const SaidStep& said) {
@@ -92,6 +107,11 @@ ColumnGuess guess_of_time(const UnknownColumn& column, const Heading& heading, c
                     {},
                     {},
                     {}};
+  if (!column.either.empty())
+    guess.factor = left_open(fmt::format(
+        "the sign in {} may stand before decimals, 1, or between thousands, 1000", column.either));
+  else if (!heading.other_unit.empty())
+    guess.factor = Told{"1", "the unit that is written here counts, not the heading's"};
   if (!column.is_date && are_intervals(column.values))
     guess.input = Told{"interval", "its numbers are alike and do not ascend: the time since the row before"};
   return guess;

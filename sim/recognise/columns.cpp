@@ -13,7 +13,7 @@
 namespace mckibben::recognise {
 namespace {
 
-constexpr double least_correlation = 0.5, least_zero_share = 0.01, digits_of_range = 1e-4, held_share = 0.01;
+constexpr double held_share = 0.01;
 
 /// A column, and what its heading says.
 struct Named {
@@ -21,12 +21,37 @@ struct Named {
   Heading heading;
 };
 
+/// Millipascals, which nobody measures with.
+bool is_misspelt(const std::string& unit) {
+  return unit.starts_with("mPa");
+}
+
 Told unit_told(const Heading& heading) {
+  if (!heading.other_unit.empty())
+    return left_open(
+        fmt::format("its heading says {}, the line below it {}: which?", heading.other_unit, heading.unit));
+  if (is_misspelt(heading.unit)) return left_open("the table says mPa, a thousandth of a pascal: MPa?");
   if (heading.unit_fits) return {heading.unit, fmt::format("the table says {}", heading.unit)};
+  if (!heading.unknown.empty())
+    return left_open(
+        fmt::format("the table says ({}), which is no unit that is known here", heading.unknown));
   if (heading.unit.empty()) return left_open("the table says no unit");
   return left_open(
       fmt::format("the table says {}, which is none of {}: write unit, zero and factor of the sensor",
                   heading.unit, heading.quantity->key));
+}
+
+/// What is asked of a column's factor, or must be written where its unit contradicts a heading.
+std::optional<Told> factor_told(const Named& of) {
+  if (!of.column->either.empty())
+    return left_open(fmt::format("the sign in {} may stand before decimals, 1, or between thousands, 1000",
+                                 of.column->either));
+  if (!of.heading.times.empty())
+    return left_open(fmt::format("its heading says {}: what one of its numbers is in its unit, 0.1, 10 or 1",
+                                 of.heading.times));
+  if (!of.heading.other_unit.empty() || is_misspelt(of.heading.unit))
+    return Told{"1", "the unit that is written here counts, not the heading's"};
+  return std::nullopt;
 }
 
 /// The key under which a data set names it.
@@ -42,7 +67,13 @@ ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const N
   for (const Named* each : candidates) {
     if (each->column->name == quantity.column || candidates.size() == 1) {
       const Told unit = unit_told(each->heading);
-      return {quantity_for(quantity, unit), {each->column->name, each->heading.reason}, unit, {}, {}, {}, {}};
+      return {quantity_for(quantity, unit),
+              {each->column->name, each->heading.reason},
+              unit,
+              {},
+              factor_told(*each),
+              {},
+              {}};
     }
     names.push_back(each->column->where.empty() ? each->column->name : "where: " + each->column->where);
   }
@@ -54,40 +85,6 @@ ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const N
                           : others.empty() ? "no column seems to hold it"
                                            : "no heading names it; perhaps one of: " + others;
   return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}, {}};
-}
-
-/// Sign and zero of a contraction, by how it goes along with what drives the muscle.
-void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
-                   const std::vector<const UnknownTable*>& tables) {
-  std::vector<const Values*> drives, readings;
-  Range range{1e300, -1e300}, driven = range;
-  for (const UnknownTable* table : tables) {
-    drives.push_back(column_of(*table, drive.column.value));
-    readings.push_back(column_of(*table, contraction.column.value));
-    if (drives.back() == nullptr || readings.back() == nullptr) return;
-    const Range own = range_of(*readings.back()), of_drive = range_of(*drives.back());
-    range = {std::min(range.low, own.low), std::max(range.high, own.high)};
-    driven.low = std::min(driven.low, of_drive.low);
-  }
-  const Together found = together(drives, readings);
-  const std::string along = fmt::format("correlation with {} {:.2f}", drive.column.value, found.correlation);
-  if (std::abs(found.correlation) < least_correlation) {
-    contraction.factor =
-        left_open(along + ": too weak to decide its sign; 1 if it grows as the muscle contracts, else -1");
-    contraction.zero = left_open("what it reads with the muscle at its rest length");
-    return;
-  }
-  if (found.correlation < 0.0) contraction.factor = Told{"-1", "it falls as the muscle contracts, " + along};
-  const bool from_rest =
-      contraction.unit.value == "1" || contraction.unit.value == "%" || contraction.unit.value == "count";
-  const double span = range.high - range.low;
-  if ((from_rest && found.correlation > 0.0) || std::abs(found.at_least_drive) < least_zero_share * span)
-    return;
-  const double step = std::pow(10.0, std::floor(std::log10(digits_of_range * span)));
-  contraction.zero =
-      Told{fmt::format("{:.12g}", std::round(found.at_least_drive / step) * step),
-           fmt::format("its median where {} is lowest, {:.4g}: is the muscle at rest length there?",
-                       drive.column.value, driven.low)};
 }
 
 /// Whether a bench holds the muscle at a length in each table.
@@ -268,7 +265,7 @@ Setting rows_of_ticks(const UnknownTable& table, bool rig_is_known) {
 
 }  // namespace
 
-MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known) {
+MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known, const KnownRig& rig) {
   const UnknownTable& table = *tables.front();
   std::vector<Named> named;
   for (const UnknownColumn& column : table.columns) named.push_back({&column, heading_of(column)});
@@ -323,10 +320,11 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_know
   for (ColumnGuess& guess : map.columns)
     if (guess.quantity->key == "contraction" && drive != nullptr && !guess.column.open()) {
       held = has_force && is_held(guess, tables);
+      const bool is_length = candidates("contraction").front()->heading.is_length;
       if (held)
-        given_length(guess, candidates("contraction").front()->heading.is_length);
+        given_length(guess, is_length);
       else
-        sign_and_zero(guess, *drive, tables);
+        sign_and_zero(guess, *drive, tables, is_length, rig);
     }
   if (!time.guess && !table.time_is_inside)
     map.rows = held

@@ -12,13 +12,17 @@ namespace mckibben::recognise {
 using Values = std::vector<double>;
 
 /// The map of tables whose columns have the same names.
-MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known);
+MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known, const KnownRig& rig);
 
 /// The numbers of a column as they stand in the file; null if there is none of that name.
 const Values* column_of(const UnknownTable& table, const std::string& name);
 
 /// What commands the muscle in such tables, or its pressure as an input; null if nothing.
 const ColumnGuess* drive_of(const MapGuess& map);
+
+/// Sign and zero of a contraction, by how it goes along with what drives the muscle.
+void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
+                   const std::vector<const UnknownTable*>& tables, bool is_length, const KnownRig& rig);
 
 /// Time as a table seems to hold it.
 struct TimeGuess {
@@ -53,7 +57,8 @@ Range range_of(const Values& values);
 /// How a reading goes along with what drives it, over all tables: correlation from -1 to 1.
 struct Together {
   double correlation = 0.0;
-  double at_least_drive = 0.0;  ///< the reading's median where the drive is lowest, within 2 % of its range
+  double at_least_drive = 0.0;  ///< the reading's median where the drive is lowest, within 2 % of its range,
+  double scatter = 0.0;         ///< and from its 5th to its 95th percentile there
 };
 Together together(const std::vector<const Values*>& drive, const std::vector<const Values*>& reading);
 

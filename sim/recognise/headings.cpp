@@ -2,11 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <regex>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <sim/input/column_hints.hpp>
 #include <sim/input/dates.hpp>
@@ -180,6 +178,10 @@ std::string_view key_of_unit(std::string_view unit) {
 
 namespace {
 
+bool is_letter_or_digit(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0;
+}
+
 /// What a word of time says of its unit.
 std::string unit_of_time_word(const Words& words) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 8> units{{{"millis", "ms"},
@@ -210,6 +212,29 @@ std::string force_of_mass(const std::string& unit) {
   return unit == "lb" || unit == "lbs" ? "lbf" : unit;
 }
 
+/// The unit of a heading, if the line below it says another one of the same kind.
+std::string contradicting(const std::string& unit, bool in_brackets, const std::string& below) {
+  const bool may_be_a_name =
+      !in_brackets && (unit == "in" || unit == "min" || (unit.size() < 2 && unit != "s"));
+  if (unit.empty() || may_be_a_name || !input::unit_problem(unit, below).empty()) return "";
+  std::vector<double> one{1.0};
+  input::convert_units(one, unit, below);
+  return one.front() == 1.0 ? "" : unit;
+}
+
+/// `x10`, `*10`, `/10` in a heading: its numbers are so many times what its unit says, or a part of it.
+std::string times_in(const std::string& heading) {
+  for (std::size_t at = 0; at + 2 < heading.size(); ++at) {
+    const bool sign = heading[at] == '*' || heading[at] == '/' ||
+                      (heading[at] == 'x' && (at == 0 || !is_letter_or_digit(heading[at - 1])));
+    const std::size_t end = std::min(heading.find_first_not_of('0', at + 2), heading.size());
+    if (sign && heading[at + 1] == '1' && end > at + 2 &&
+        (end == heading.size() || !is_letter_or_digit(heading[end])))
+      return heading.substr(at, end - at);
+  }
+  return "";
+}
+
 /// How far what a heading says can be trusted.
 std::string_view trust(bool by_word, bool by_unit) {
   return by_word && by_unit ? "sure" : by_word ? "likely" : "perhaps";
@@ -233,9 +258,20 @@ bool begins_with_word(const std::string& name, List said) {
 
 }  // namespace
 
+namespace {
+
+/// psi a, as a unit is read.
+bool is_unit_and_a(const std::string& name) {
+  const Words words = words_of(name);
+  return words.size() > 1 && words.back() == "a" &&
+         input::unit_problem(words[words.size() - 2], "bar").empty();
+}
+
+}  // namespace
+
 bool is_absolute(const std::string& name) {
   return has_word(name, {"abs", "absolute", "absolut", "absolu", "pabs", "psia", "bara", "kpaa", "mbara"}) ||
-         name.ends_with("(a)") || name.ends_with("(a)]") || name.ends_with("(a))");
+         name.ends_with("(a)") || name.ends_with("(a)]") || name.ends_with("(a))") || is_unit_and_a(name);
 }
 
 bool names_a_run(const std::string& name) {
@@ -293,6 +329,7 @@ Heading heading_of(const UnknownColumn& column) {
   if (heading.unit.empty() && split.behind.empty() && column.heading().size() > 1 &&
       column.heading() != "in" && column.heading() != "min" && !names_a_run(column.heading()))
     heading.unit = input::unit_word(column.heading());  // a heading that is a unit
+  if (column.unit.empty() && !split.in_brackets && heading.unit == "1") heading.unit.clear();  // x_1
   if (column.is_date) heading.unit = input::date_unit;
   const bool is_suffix = column.unit.empty() && !split.in_brackets && !column.is_date;
   const Words words = words_of(split.in_brackets ? split.before : std::string_view(column.heading()));
@@ -306,6 +343,11 @@ Heading heading_of(const UnknownColumn& column) {
     break;
   }
   if (column.is_date) key = "time";
+  // A current or a voltage that something reads: of what, no word says.
+  if ((key == "command" || (key.empty() && key_of_unit(heading.unit) == "command")) &&
+      has_word(column.heading(), {"sensor", "transmitter", "transducer", "pump", "pumpe", "messumformer",
+                                  "aufnehmer", "signal"}))
+    return {nullptr, heading.unit, false, std::string(no_word)};
   if (key.empty() && !(is_suffix && heading.unit.size() < 2)) {
     key = key_of_unit(heading.unit);
     if (!key.empty()) told = fmt::format("its unit {}", heading.unit);
@@ -323,31 +365,13 @@ Heading heading_of(const UnknownColumn& column) {
   heading.unit_fits = is_unit_of(key, heading.unit);
   if (is_suffix && !heading.unit_fits) heading.unit.clear();
   heading.reason = fmt::format("{} ({})", told, trust(!told.starts_with("its unit"), heading.unit_fits));
+  if (!column.unit.empty() && !column.is_date)
+    heading.other_unit = contradicting(unit_of_part(split.behind), split.in_brackets, column.unit);
+  if (column.unit.empty() && split.in_brackets && heading.unit.empty()) heading.unknown = split.behind;
+  heading.times = times_in(column.heading());
   static const Vocabulary lengths{"contraction", {"length", "länge", "laenge"}, {"länge"}};
   heading.is_length = !lengths.told_by(words).empty();
   return heading;
-}
-
-std::optional<std::string> load_in(const std::string& text) {
-  static const std::regex number_and_unit(
-      R"((^|[^0-9.,])([0-9]{1,6})([.,p]([0-9]{1,6}))?[ _-]?(kg|g|lb)(?![a-zA-Z]))", std::regex::icase);
-  std::smatch found;
-  if (text.size() > 500 || !std::regex_search(text, found, number_and_unit)) return std::nullopt;
-  std::string unit = found[5];
-  std::transform(unit.begin(), unit.end(), unit.begin(),
-                 [](char c) { return c < 'a' ? static_cast<char>(c + 'a' - 'A') : c; });
-  const std::string whole = std::to_string(std::stol(found[2])), fraction = found[4];
-  return fmt::format("{}{}{} {}", whole, fraction.empty() ? "" : ".", fraction, unit);
-}
-
-std::optional<LoadGuess> load_of(const UnknownTable& table) {
-  if (table.load) return table.load;
-  if (auto load = load_in(table.path.stem().string())) return LoadGuess{*load, "the file's name says so"};
-  for (const std::string& line : table.remarks)
-    if (auto load = load_in(line)) return LoadGuess{*load, "a line above its headings says so"};
-  if (auto load = load_in(table.path.parent_path().filename().string()))
-    return LoadGuess{*load, "the folder's name says so"};
-  return std::nullopt;
 }
 
 }  // namespace mckibben::recognise

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <sim/domain/columns.hpp>
 #include <sim/recognise/unknown_table.hpp>
@@ -17,6 +18,9 @@ struct Heading {
   bool unit_fits = false;                      ///< what is said can be a unit of the quantity
   std::string reason;                          ///< which words tell
   bool is_length = false;                      ///< the muscle's, which falls as it contracts
+  std::string other_unit{};  ///< the heading says another one than the line below it; empty: it does not
+  std::string unknown{};     ///< in its brackets, and no unit that is known; empty: nothing
+  std::string times{};  ///< of ten by which its numbers are scaled, as `x10` in `p x10 [bar]`; empty: none
 };
 
 Heading heading_of(const UnknownColumn& column);
@@ -36,10 +40,19 @@ bool names_a_sensor(const std::string& name);
 bool names_rows(const std::string& name);
 bool names_raw(const std::string& name);
 
-/// None if nothing tells the load of this run.
+/// None if nothing tells the load of this run; FILL_IN with what may be it where several masses are named, or
+/// one that no word calls a load.
 std::optional<LoadGuess> load_of(const UnknownTable& table);
 
-/// "5 kg" in "load_5kg_run2", "5,5 kg" in "m5,5kg", with a decimal p as well: "5p5kg".
+/// Masses that a text names: those that are a load by a word beside them, else in names of files any (of
+/// grams one by itself), in lines one that stands alone or is called mass; and all others.
+struct Masses {
+  std::vector<std::string> loads, others;
+};
+Masses masses_in(const std::string& text, bool is_name);
+
+/// "5 kg" in "load_5kg_run2", "5,5 kg" in "m5,5kg", with a decimal p as well: "5p5kg". None where there are
+/// none or two.
 std::optional<std::string> load_in(const std::string& text);
 
 }  // namespace mckibben::recognise

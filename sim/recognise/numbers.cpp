@@ -80,7 +80,10 @@ Together together(const std::vector<const Values*>& drive, const std::vector<con
     if (x <= range.low + lowest_share * (range.high - range.low)) lowest.push_back(y);
   });
   const double spread = std::sqrt(sxx * syy);
-  return {spread > 0.0 ? sxy / spread : 0.0, data::upper_median(std::move(lowest))};
+  std::ranges::sort(lowest);
+  const std::size_t end = lowest.size() / 20;  // 5 % on either side
+  const double scatter = lowest.empty() ? 0.0 : lowest[lowest.size() - 1 - end] - lowest[end];
+  return {spread > 0.0 ? sxy / spread : 0.0, data::upper_median(std::move(lowest)), scatter};
 }
 
 bool begins_still(const Values& values, const Range& range) {

@@ -1,6 +1,7 @@
 // Tables alike share a map; clock, loads and rig follow; see the header.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include <fmt/format.h>
@@ -62,7 +63,8 @@ constexpr double shortest_tick_s = 1e-4, longest_tick_s = 1.0;
 /// Understands tables that have been read.
 class Recogniser {
  public:
-  Recogniser(Recognised& all, bool rig_is_known) : all_(all), rig_is_known_(rig_is_known) {}
+  Recogniser(Recognised& all, bool rig_is_known, const KnownRig& known)
+      : all_(all), rig_is_known_(rig_is_known), known_(known) {}
 
   void operator()() {
     const bool rig_is_known = rig_is_known_;
@@ -90,7 +92,7 @@ class Recogniser {
       groups[place->second].push_back(&table);
       all_.runs.push_back({"", place->second, {}});
     }
-    for (const auto& group : groups) all_.maps.push_back(map_of(group, rig_is_known));
+    for (const auto& group : groups) all_.maps.push_back(map_of(group, rig_is_known, known_));
   }
 
   void runs() {
@@ -119,6 +121,33 @@ class Recogniser {
     return seconds_of(all_.tables[run], *time);
   }
 
+  std::size_t repeats_of(std::size_t run) const {
+    const ColumnGuess* time = map_of_run(run).find("time");
+    const Values* stamps =
+        time == nullptr || time->input ? nullptr : column_of(all_.tables[run], time->column.value);
+    std::size_t repeats = 0;
+    for (std::size_t k = 1; stamps != nullptr && k < stamps->size(); ++k)
+      repeats += (*stamps)[k] == (*stamps)[k - 1] ? 1 : 0;
+    return repeats;
+  }
+
+  /// Whether a row lacks what is read; a row each tick lacks nothing.
+  bool lacks_cells() const {
+    for (std::size_t i = 0; i < all_.runs.size(); ++i)
+      for (const ColumnGuess& guess : map_of_run(i).columns)
+        if (const Values* values = column_of(all_.tables[i], guess.column.value);
+            values != nullptr && guess.where.empty() && !guess.time &&
+            std::ranges::any_of(*values, [](double value) { return std::isnan(value); }))
+          return true;
+    return false;
+  }
+
+  void remark(std::size_t run, const std::string& what) {
+    constexpr std::size_t most = 12;
+    std::vector<std::string>& remarks = all_.maps[all_.runs[run].map].remarks;
+    if (remarks.size() < most) remarks.push_back(fmt::format("{}: {}", all_.runs[run].id, what));
+  }
+
   void clocks() {
     bool even = true;
     double jitter_s = 0.0, first_s = 0.0;
@@ -127,13 +156,27 @@ class Recogniser {
       if (seconds.size() < 2) continue;
       const Clock clock = clock_of(seconds);
       if (step_s_ == 0.0) step_s_ = clock.step_s;
+      if (const auto fall = std::ranges::adjacent_find(seconds, std::greater<>()); fall != seconds.end())
+        remark(i, clock.step_s < 0.0
+                      ? "its stamps fall from row to row: the newest rows are first; sort them by time"
+                      : fmt::format(
+                            "its stamps fall back at row {}, by {:.4g} s: take that row out, or sort them",
+                            fall - seconds.begin() + 2, *fall - *(fall + 1)));
+      if (const std::size_t repeats = repeats_of(i); repeats > 0) {
+        even = false;  // they are spread, which only stamps are
+        remark(i, fmt::format("{} of {} stamps repeat the one before; where the clock is coarse, rows of one "
+                              "stamp are taken to lie evenly up to the next",
+                              repeats, seconds.size()));
+      }
       const double allowed_s = even_s + even_ratio * (seconds.back() - clock.begin_s);
       even = even && clock.begin_s == 0.0 && clock.jitter_s <= allowed_s &&
              std::abs(clock.step_s - step_s_) <= even_ratio * step_s_;
       jitter_s = std::max(jitter_s, clock.jitter_s);
       first_s = clock.begin_s != 0.0 ? clock.begin_s : first_s;
     }
-    even_ = even && step_s_ >= shortest_tick_s && step_s_ <= longest_tick_s;
+    const bool ticks =
+        known_.tick_s == 0.0 || std::abs(step_s_ - known_.tick_s) <= even_ratio * known_.tick_s;
+    even_ = even && ticks && step_s_ >= shortest_tick_s && step_s_ <= longest_tick_s;
     if (step_s_ == 0.0) return;
     clock_ = fmt::format("stamps {:.6g} ms apart", 1e3 * step_s_);
     if (jitter_s > even_s) clock_ = fmt::format("{}, uneven by up to {:.3g} ms", clock_, 1e3 * jitter_s);
@@ -188,12 +231,14 @@ class Recogniser {
         break;
       }
     const bool commanded = first_map().find("current") != nullptr;
-    if (moving.empty() && even_ && commanded) return;  // a row each tick, from rest
-    if (moving.empty() && first_map().find("time") == nullptr) return;
+    const bool lacks = lacks_cells();
+    if (moving.empty() && even_ && commanded && !lacks) return;  // a row each tick, from rest
+    if (moving.empty() && first_map().find("time") == nullptr && !lacks) return;
     all_.dataset.push_back(
         {"start",
          moving.empty()
-             ? Told{"settled", "each run begins with nothing moving" + (clock_.empty() ? "" : "; " + clock_)}
+             ? Told{"settled", "each run begins with nothing moving" + (clock_.empty() ? "" : "; " + clock_) +
+                                   (lacks ? "; some rows lack cells" : "")}
              : Told{"moving", fmt::format("{} run{} on the way, such as {}{}{}", moving.size(),
                                           moving.size() == 1 ? " begins" : "s begin", moving.front(),
                                           clock_.empty() ? "" : "; ", clock_)}});
@@ -297,6 +342,7 @@ class Recogniser {
 
   Recognised& all_;
   bool rig_is_known_;
+  KnownRig known_;
   double step_s_ = 0.0;
   bool even_ = false, held_ = false;
   std::string clock_;
@@ -304,13 +350,14 @@ class Recogniser {
 
 }  // namespace
 
-Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known) {
+Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known,
+                     const KnownRig& rig) {
   Recognised all;
   const std::uintmax_t together = input::bytes_of({files.begin(), files.end()});
   for (const auto& file : files)
     for (const UnknownTable& table : read_unknown(file, together))
       for (UnknownTable& run : runs_in(table)) all.tables.push_back(std::move(run));
-  Recogniser{all, rig_is_known}();
+  Recogniser{all, rig_is_known, rig}();
   return all;
 }
 

@@ -65,8 +65,14 @@ struct Recognised {
   std::size_t open() const;
 };
 
+/// What a rig that is known tells of its tables; 0: nothing does.
+struct KnownRig {
+  double tick_s = 0.0, rest_length_m = 0.0;
+};
+
 /// Reads and understands. `rig_is_known`: nothing is to be said of it. Throws MissingInput, BadInput.
-Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known);
+Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known,
+                     const KnownRig& rig = {});
 
 /// The numbers of a table's column as the map brings them to the unit that is said; empty if none is named.
 std::vector<double> shown(const UnknownTable& table, const ColumnGuess& guess);

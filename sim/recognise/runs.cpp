@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <plant/instruments.hpp>
 #include <sim/domain/columns.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/input/arranged.hpp>
@@ -62,6 +63,13 @@ std::optional<LoadGuess> load_of(const UnknownColumn& column, double value) {
   const std::string unit = heading_of(column).unit;
   if (!unit.empty() && value > 0.0 && input::unit_problem(unit, "kg").empty())
     return LoadGuess{fmt::format("{} {}", text, unit), fmt::format("the column {} says so", column.name)};
+  std::vector<double> mass_kg{value};
+  if (!unit.empty() && value > 0.0 && input::unit_problem(unit, "N").empty()) {
+    input::convert_units(mass_kg, unit, "N");
+    return LoadGuess{std::string(domain::fill_in),
+                     fmt::format("the column {} says {} {}, a force: {:.5g} kg weighs so much", column.name,
+                                 text, unit, mass_kg.front() / plant::gravity_m_per_s2)};
+  }
   return LoadGuess{std::string(domain::fill_in),
                    fmt::format("the column {} says {}{}", column.name, text,
                                unit.empty() ? ", without a unit: kg, g, lb, N?" : " " + unit)};
@@ -268,6 +276,50 @@ std::vector<UnknownTable> cut_by_labels(const UnknownTable& table, const std::op
   return runs;
 }
 
+/// A line between rows that names a load is about the rows below it: they are a part of their own, by the
+/// time at which they begin and end.
+std::vector<UnknownTable> cut_by_lines(UnknownTable table) {
+  std::vector<Between> lines;
+  for (const Between& each : table.between)
+    if (masses_in(each.text, false).loads.size() == 1 && each.row < table.rows()) lines.push_back(each);
+  const auto load_in_line = [](const std::string& text) { return masses_in(text, false).loads.front(); };
+  for (; !lines.empty() && lines.front().row == 0; lines.erase(lines.begin()))
+    table.remarks = {lines.front().text};
+  const std::optional<LoadGuess> first = load_of(table);
+  std::erase_if(lines, [&, load = first ? first->quantity : ""](const Between& each) mutable {
+    const bool same = load_in_line(each.text) == load;
+    load = load_in_line(each.text);
+    return same;
+  });
+  if (lines.empty()) return {std::move(table)};
+  const TimeGuess time = time_of(table);
+  const Values time_s = time.guess ? seconds_of(table, *time.guess) : Values{};
+  if (time_s.size() != table.rows()) {
+    table.load = LoadGuess{std::string(domain::fill_in),
+                           fmt::format("line {} says {} of the rows below it; cut there, with from: and to:",
+                                       lines.front().line, load_in_line(lines.front().text))};
+    return {std::move(table)};
+  }
+  std::vector<UnknownTable> parts;
+  for (std::size_t i = 0; i <= lines.size(); ++i) {
+    const std::size_t begin = i == 0 ? 0 : lines[i - 1].row,
+                      end = i < lines.size() ? lines[i].row : table.rows();
+    std::vector<std::size_t> rows(end - begin);
+    std::iota(rows.begin(), rows.end(), begin);
+    const auto since = [&](const char* key, std::size_t row) {
+      return fmt::format("{}: {:.9g} s", key, time_s[row] - time_s.front());
+    };
+    parts.push_back(table.rows(rows, i == 0 ? since("to", end - 1) : since("from", begin)));
+    UnknownTable& part = parts.back();
+    part.between.clear();
+    if (i > 0)
+      part.load =
+          LoadGuess{load_in_line(lines[i - 1].text), fmt::format("line {} says so", lines[i - 1].line)};
+    if (i > 0 && i < lines.size()) part.part.push_back(since("to", end - 1));
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::vector<UnknownTable> runs_in(const UnknownTable& table) {
@@ -300,7 +352,10 @@ std::vector<UnknownTable> runs_in(const UnknownTable& table) {
     }
     for (UnknownTable& part : parts) {
       const std::optional<Long> own = long_table(part);
-      runs.push_back(own ? turned(part, *own) : std::move(part));
+      if (own)
+        runs.push_back(turned(part, *own));
+      else
+        for (UnknownTable& cut : cut_by_lines(std::move(part))) runs.push_back(std::move(cut));
     }
   }
   return runs;

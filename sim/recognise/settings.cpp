@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/input/cells.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/recognise/settings.hpp>
@@ -24,28 +25,34 @@ std::string lower_letters(std::string_view text) {
   return letters;
 }
 
-/// `500,000000`, `1.000 Hz`: the number, with what follows it.
+/// `500,000000`, `1.000 Hz`: the number, with what follows it. `decimal`: the sign in the table below; 0: not
+/// known, and a number such as 1,000 is none.
 struct Value {
   double number;
   std::string_view unit;
 };
-std::optional<Value> value_of(std::string_view text) {
-  std::string plain(text);
-  if (std::ranges::count(plain, ',') == 1 && plain.find('.') == std::string::npos)
-    std::replace(plain.begin(), plain.end(), ',', '.');
-  const std::size_t length = input::number_length(plain);
-  const auto number = input::parse_number(std::string_view(plain).substr(0, length));
+std::optional<Value> value_of(std::string_view text, char decimal) {
+  const std::size_t length = std::min(text.find_first_not_of("0123456789.,+-eE"), text.size());
+  std::string_view digits = text.substr(0, length);
+  while (digits.ends_with(',') || digits.ends_with('.') || digits.ends_with('E') || digits.ends_with('e'))
+    digits.remove_suffix(1);
+  input::Spelling spelling;
+  spelling.look_at(digits);
+  if (spelling.decimal() != '\0') decimal = spelling.decimal();
+  if (decimal == '\0' && !spelling.group().empty()) return std::nullopt;
+  std::string problem;
+  const auto number = input::NumberReader(decimal).read("", {digits, 0}, problem);
   if (!number) return std::nullopt;
-  std::string_view unit = input::trimmed(text.substr(length));
+  std::string_view unit = input::trimmed(text.substr(digits.size()));
   while (!unit.empty() && std::string_view(";,\t").find(unit.back()) != std::string_view::npos)
     unit.remove_suffix(1);
   return Value{*number, input::trimmed(unit)};
 }
 
 /// The step between rows that a setting says; 0 if it is about something else.
-double step_in(const Remark& remark) {
+double step_in(const Remark& remark, char decimal) {
   const std::string key = lower_letters(remark.key);
-  const auto value = value_of(remark.value);
+  const auto value = value_of(remark.value, decimal);
   if (!value || value->number <= 0.0) return 0.0;
   std::string unit(value->unit);
   for (const char* in_key : {"(Hz)", "[Hz]", "(s)", "[s]", "(ms)", "[ms]"})
@@ -59,7 +66,8 @@ double step_in(const Remark& remark) {
   const bool step = has("sampleinterval") || has("samplinginterval") || has("sampleperiod") ||
                     has("samplingperiod") || has("sampletime") || has("increment") || key == "dt" ||
                     key == "ts" || key == "deltat" || has("abtastzeit") || has("deltax") ||
-                    has("wfincrement") || has("interval");
+                    has("wfincrement") || has("timeinterval") || has("logginginterval") ||
+                    has("recordinginterval") || has("scaninterval") || key == "interval";
   std::vector<double> number{value->number};
   if (rate) {
     if (unit.empty() || unit == "S/s" || unit == "Sa/s" || unit == "SPS" || unit == "fps")
@@ -93,14 +101,14 @@ std::optional<Remark> setting_in(std::string_view line) {
     value.remove_prefix(1);
   value = input::trimmed(value);
   if (value.ends_with('"')) value.remove_suffix(1);
-  if (key.empty() || !value_of(value)) return std::nullopt;
+  if (key.empty() || !value_of(value, '.')) return std::nullopt;
   return Remark{std::string(key), std::string(value)};
 }
 
 SaidStep said_step(const UnknownTable& table) {
   SaidStep found;
   for (const Remark& remark : table.settings) {
-    const double step_s = step_in(remark);
+    const double step_s = step_in(remark, table.decimal);
     if (step_s == 0.0 || !std::isfinite(step_s)) continue;
     if (found.step_s != 0.0 && std::abs(step_s / found.step_s - 1.0) > 1e-6) return {};
     found = {step_s, fmt::format("the file says {} {}", remark.key, remark.value)};

@@ -8,12 +8,14 @@
 
 #include <sim/domain/columns.hpp>
 #include <sim/formats/mat_file.hpp>
+#include <sim/input/column_hints.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/readable.hpp>
 #include <sim/input/readers.hpp>
+#include <sim/input/spelling.hpp>
 #include <sim/input/text_layout.hpp>
 #include <sim/recognise/headings.hpp>
 #include <sim/recognise/settings.hpp>
@@ -29,7 +31,7 @@ struct Growing {
   UnknownColumn column;
   input::ClockReader clock;
   input::EpochReader epoch;
-  std::size_t numbers = 0, dates = 0, words = 0;
+  std::size_t numbers = 0, dates = 0, words = 0, empty = 0, first_empty = 0;
   std::vector<double> times, texts;                  ///< of `known`, by their places
   std::map<std::string, double, std::less<>> known;  ///< none: there are too many
   bool few_words = true;
@@ -44,6 +46,7 @@ struct Growing {
     const auto time = number ? std::nullopt : clock.read("", cell, problem);
     numbers += number ? 1 : 0;
     dates += time ? 1 : 0;
+    if (input::is_missing(cell) && empty++ == 0) first_empty = line;
     if (!number && !time && !input::is_missing(cell) && words++ == 0) {
       first_word = cell.text.substr(0, 40);
       first_line = line;
@@ -81,6 +84,9 @@ struct Growing {
       return true;
     }
     if (numbers == 0 || numbers < words) return false;
+    if (empty > 0)
+      column.odd = fmt::format("{} of its {} cells are empty, the first in line {}", empty,
+                               column.values.size(), first_empty);
     if (words > 0)
       column.odd = fmt::format("{} of its {} cells hold no number, such as {} in line {}", words,
                                column.values.size(), first_word, first_line);
@@ -96,6 +102,10 @@ void keep(std::vector<Growing>& all, UnknownTable& table) {
       table.columns.push_back(std::move(each.column));
     } else if (each.few_words && !each.known.empty()) {
       each.column.values = std::move(each.texts);
+      table.texts.push_back(std::move(each.column));
+    } else if (input::names_time(each.column.heading()) && each.words > 0) {  // stamps of another kind
+      each.column.texts = {each.first_word};
+      each.column.values.assign(each.column.values.size(), std::nan(""));
       table.texts.push_back(std::move(each.column));
     } else if (!each.column.name.empty())
       table.words.push_back(each.column.name);
@@ -134,6 +144,17 @@ void refuse_rows_of_quantities(const Source& source, const input::TextLayout& la
         "each quantity stands in a row; they are wanted in columns: transpose the table and save it again");
 }
 
+/// Control characters, as of a code page that nobody knows: no YAML takes them.
+bool is_unprintable(std::string_view heading) {
+  for (std::size_t at = 0; at < heading.size(); ++at) {
+    const auto byte = static_cast<unsigned char>(heading[at]);
+    const bool c1 =
+        byte == 0xC2 && at + 1 < heading.size() && static_cast<unsigned char>(heading[at + 1]) < 0xA0;
+    if (byte < 0x20 || byte == 0x7F || c1) return true;
+  }
+  return false;
+}
+
 void read_text(const Source& source, UnknownTable& table) {
   const input::TextLayout layout = input::layout_of(source, {});
   if (!layout.problem.empty()) refuse(source, {layout.problem_line, 1}, layout.problem);
@@ -152,14 +173,32 @@ void read_text(const Source& source, UnknownTable& table) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string& heading = layout.headings[i];
     const bool again = std::count(layout.headings.begin(), layout.headings.end(), heading) > 1;
-    all[i].column.name = heading.empty() || again ? std::to_string(i + 1) : heading;
-    if (again) all[i].column.label = heading;
+    all[i].column.name =
+        heading.empty() || again || is_unprintable(heading) ? std::to_string(i + 1) : heading;
+    if (again || is_unprintable(heading)) all[i].column.label = heading;
     all[i].column.unit = layout.units[i];
   }
-  input::NumberReader reader('\0');
+  const input::Look look = input::look_at(source, layout);
+  if (look.another_heading > 0) refuse(source, {look.another_heading, 1}, std::string(input::another_table));
+  if (look.blank_cells > 0) refuse(source, {look.blank_cells, 1}, std::string(input::lost_between_blanks));
+  if (look.short_rows > 0) {
+    const std::string lost = look.note_of_short_rows(source.line_in_file(look.first_short));
+    table.note = table.note.empty() ? lost : table.note + "; " + lost;
+  }
+  table.decimal = look.decimal;
+  std::vector<input::NumberReader> readers;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    readers.emplace_back(look.columns[i].decimal);
+    all[i].column.either = look.columns[i].either;
+  }
   for (std::size_t line = layout.first_row; line <= layout.last_row; ++line) {
-    if (input::kind_of(source, layout, line) != input::Line::row) continue;
+    const input::Line kind = input::kind_of(source, layout, line);
+    if (kind == input::Line::remark && !all.front().column.values.empty())
+      table.between.push_back(
+          {all.front().column.values.size(), source.line_in_file(line), std::string(source.line(line))});
+    if (kind != input::Line::row) continue;
     const std::vector<Cell> cells = input::row_cells(source, layout, line);
+    if (look.lacks_cells(layout, cells)) continue;
     if (cells.size() > all.size())
       refuse(source, {line, 1},
              fmt::format(
@@ -167,21 +206,38 @@ void read_text(const Source& source, UnknownTable& table) {
                  "a file of its own",
                  cells.size(), all.size()));
     for (std::size_t i = 0; i < all.size(); ++i)
-      all[i].add(i < cells.size() ? cells[i] : Cell{}, reader, source.line_in_file(line));
+      all[i].add(i < cells.size() ? cells[i] : Cell{}, readers[i], source.line_in_file(line));
   }
   refuse_rows_of_quantities(source, layout, all);
   keep(all, table);
 }
 
-void read_labview(const Source& source, UnknownTable& table) {
-  table.time_is_inside = true;
+std::vector<input::WantedColumn> wanted_of_labview(const Source& source) {
   std::vector<input::WantedColumn> wanted;
   for (auto& name : input::lvm_channels(source)) wanted.push_back({name, name, false, true});
+  return wanted;
+}
+
+/// How many runs its segments are: one, if its time goes on over all.
+std::size_t runs_of_labview(const Source& source) {
+  std::vector<input::WantedColumn> wanted = wanted_of_labview(source);
+  wanted.push_back({"time_s", "", true});
+  for (std::size_t segment = 0;; ++segment) {
+    input::Problems problems;
+    input::TableProblems said(source, problems);
+    input::read_lvm(source, wanted, segment, said);
+    if (said.count() == 0 && segment == 0) return 1;
+    if (said.count() > 0 && segment > 0) return std::max<std::size_t>(segment - 1, 1);
+  }
+}
+
+void read_labview(const Source& source, std::size_t segment, UnknownTable& table) {
+  table.time_is_inside = true;
   input::Problems problems;
   input::Table found;
   {
     input::TableProblems said(source, problems);
-    found = input::read_lvm(source, wanted, 0, said);
+    found = input::read_lvm(source, wanted_of_labview(source), segment, said);
   }
   problems.raise();
   for (input::Table::Column& column : found.columns)
@@ -214,7 +270,8 @@ void read_matlab(const Source& source, UnknownTable& table) {
   }
 }
 
-UnknownTable read_one(const std::filesystem::path& path, const Source& source) {
+/// `segment`: of an .lvm; 0: all.
+UnknownTable read_one(const std::filesystem::path& path, const Source& source, std::size_t segment) {
   UnknownTable table;
   table.path = path;
   table.input = {source.name(), source.sha256()};
@@ -230,7 +287,7 @@ UnknownTable read_one(const std::filesystem::path& path, const Source& source) {
   if (format != input::Format::text && source.thinned().step > 1)
     refuse(source, input::nowhere, "too large to be read; save each run in a file of its own");
   if (format == input::Format::text) read_text(source, table);
-  if (format == input::Format::lvm) read_labview(source, table);
+  if (format == input::Format::lvm) read_labview(source, segment, table);
   if (format == input::Format::mat) read_matlab(source, table);
   if (table.columns.empty()) refuse(source, input::nowhere, "no column of numbers is found in it");
   return table;
@@ -246,6 +303,10 @@ const UnknownColumn* UnknownTable::find(const std::string& name) const {
 UnknownTable UnknownTable::rows(const std::vector<std::size_t>& which, const std::string& says) const {
   UnknownTable some = *this;
   some.part.push_back(says);
+  some.between.clear();
+  for (const Between& each : between)
+    if (const auto row = std::ranges::lower_bound(which, each.row); row != which.end())
+      some.between.push_back({static_cast<std::size_t>(row - which.begin()), each.line, each.text});
   for (auto* list : {&some.columns, &some.texts})
     for (UnknownColumn& column : *list) {
       std::vector<double> values;
@@ -259,8 +320,13 @@ std::vector<UnknownTable> read_unknown(const std::filesystem::path& path, std::u
   std::vector<UnknownTable> tables;
   const std::vector<input::LoadedSheet> sheets = input::load_tables(path, together);
   for (const auto& [name, source] : sheets) {
-    tables.push_back(read_one(path, source));
-    if (sheets.size() > 1) tables.back().part.push_back("sheet: " + domain::yaml_scalar(name));
+    const bool labview = input::format_of(path.string(), source.text()) == input::Format::lvm;
+    const std::size_t segments = labview ? runs_of_labview(source) : 1;
+    for (std::size_t i = 1; i <= segments; ++i) {
+      tables.push_back(read_one(path, source, segments > 1 ? i : 0));
+      if (sheets.size() > 1) tables.back().part.push_back("sheet: " + domain::yaml_scalar(name));
+      if (segments > 1) tables.back().part.push_back(fmt::format("segment: {}", i));
+    }
   }
   return tables;
 }

@@ -21,7 +21,8 @@ struct UnknownColumn {
   std::string label{};               ///< how the file calls it besides; empty: only by its name
   std::vector<std::string> texts{};  ///< of a column of words: its values are their places in this list
   std::string in_file{}, where{};    ///< of a quantity in a long table: its column, and which rows are its
-  std::string odd{};  ///< cells of a column of numbers that hold none; empty: there are no such
+  std::string odd{};     ///< cells of a column of numbers that hold none; empty: there are no such
+  std::string either{};  ///< a number of it whose sign may stand before decimals or between thousands
 
   const std::string& heading() const { return label.empty() ? name : label; }
 };
@@ -36,11 +37,20 @@ struct LoadGuess {
   std::string reason;
 };
 
+/// A line of words between rows.
+struct Between {
+  std::size_t row;  ///< below it
+  std::size_t line;
+  std::string text;
+};
+
 struct UnknownTable {
   std::filesystem::path path;
   domain::InputFile input;
-  std::vector<std::string> remarks;    ///< lines above the headings
-  std::vector<Remark> settings;        ///< those of them that say a value
+  std::vector<std::string> remarks;  ///< lines above the headings
+  std::vector<Remark> settings;      ///< those of them that say a value
+  std::vector<Between> between{};
+  char decimal = '\0';                 ///< before the decimals of its numbers; 0: none of them tells
   std::string note{};                  ///< that not all of its rows are here, or are one run; else empty
   std::vector<UnknownColumn> columns;  ///< of numbers; `time_is_inside` of an .lvm comes without one
   std::vector<UnknownColumn> texts;    ///< of a few words that come again

@@ -107,6 +107,29 @@ TEST_F(Arranged, CommandsInVoltsStayBesideReadingsWithAClockOfTheirOwn) {
   EXPECT_EQ(data.runs[0].measured->given("command"), (std::vector<double>{1, 1, 2, 2, 3, 3, 4}));
 }
 
+TEST_F(Arranged, ACommandInMilliamperesHasRowsAndAClockOfItsOwn) {
+  const auto given = [&](const std::string& table, const std::string& command,
+                         const std::string& contraction) {
+    place_.write("r.csv", table);
+    place_.write("dataset.yaml",
+                 "schema: mckibben-dataset/1\nrig: thesis\ncolumns:\n  time: {column: t, unit: ms}\n  " +
+                     command + "\n  contraction: {" + contraction +
+                     "}\nruns: [{id: r, file: r.csv, load: 5 kg}]\n");
+    return read_dataset(place_).runs[0].measured->given("command");
+  };
+  for (const char* key : {"command", "current"}) {
+    EXPECT_EQ(given("t,what,value\n0,I,4\n5,x,1\n20,I,5\n25,x,2\n40,I,6\n",
+                    fmt::format("{}: {{column: value, unit: mA, where: {{what: I}}}}", key),
+                    "column: value, unit: mm, where: {what: x}"),
+              (std::vector<double>{4, 4, 5, 5, 6}))
+        << key;
+    EXPECT_EQ(given("t,x,ti,i\n0,1,5,4\n20,2,25,5\n40,3,45,6\n60,4,65,7\n",
+                    fmt::format("{}: {{column: i, unit: mA, time: ti}}", key), "column: x, unit: mm"),
+              (std::vector<double>{4, 4, 5, 5, 6, 6, 7}))
+        << key;
+  }
+}
+
 TEST_F(Arranged, StampsOfALongTableMayRepeat) {
   std::string above, below, side_by_side;
   for (int k = 0; k < 20; ++k) {
@@ -169,6 +192,28 @@ TEST_F(Arranged, StampsOfACoarseClockLieEvenly) {
   EXPECT_TRUE(holds(data.remarks[0], "repeats 10 of 20 stamps"));
   EXPECT_TRUE(holds(refused("t,p,x\n0,1,0\n10,2,1\n10,3,1\n20,3,1\n", in_ms), "is repeated"))
       << "one row twice";
+}
+
+TEST_F(Arranged, TheFirstAndTheLastStampMayHaveAPartOfTheirRows) {
+  std::string table = "t,p,x\n";
+  for (int k = 7; k < 54; ++k) table += std::to_string(k / 10) + ",1,0\n";
+  const Dataset data = read(table, "column: t, unit: s", x_mm);
+  for (const std::size_t row : {0U, 1U, 3U, 46U})
+    EXPECT_NEAR(times(data)[row], 0.7 + 0.1 * static_cast<double>(row), 1e-9) << row;
+}
+
+TEST_F(Arranged, RowsThatHaveLostACellAreLeftOutAndSaid) {
+  std::string table = "t,p,x\n";
+  for (int k = 0; k < 20; ++k) table += k == 7 ? "70,1\n" : fmt::format("{},1.{},0\n", 10 * k, k);
+  const Dataset data = read(table, in_ms, x_mm);
+  EXPECT_EQ(times(data).size(), 19u);
+  EXPECT_TRUE(holds(data.remarks.at(0), "1 row lacks cells, the first in line 9"));
+}
+
+TEST_F(Arranged, WordsBetweenRowsAndAnotherTable) {
+  EXPECT_EQ(refused("t,p,x\n0,1,0\n10,2,1\n20,3,2\nEVENT: trigger, on\n30,4,3\n40,4,3\n", in_ms), "accepted");
+  EXPECT_TRUE(holds(refused("t,p,x\n0,1,0\n10,2,1\n20,3,2\ntime,kPa,x\n30,4,3\n40,4,3\n", in_ms),
+                    "r.csv:5:1: error: another table begins here"));
 }
 
 TEST_F(Arranged, StampsSince1970LoseNoDigit) {

@@ -43,6 +43,11 @@ const Kind tables[] = {
      "{time: {column: Zeit, unit: us}, current: {column: Strom, unit: mA}, contraction: {column: Weg, unit: "
      "mm}}",
      "Zeit;Strom;Weg\n0;4.0;0\n12,000;4.5;3\n"},
+    {"thousands_that_another_column_tells",
+     "{time: {column: Zeit, unit: us}, current: {column: Strom, unit: mA}, contraction: {column: Weg, unit: "
+     "mm}}",
+     "Zeit;Strom;Weg\n0;4;0\n12.000;4,5;3\n"},
+    {"numbers_of_equal_width", german, "Zeit,Strom,Weg\n00.000,04.0,+00\n00.012,04.5,+03\n"},
     {"rows_that_lack_their_last_cells", german, "Zeit,Strom,Weg,note\n0,4,0\n0.012,4.5,3,7\n"},
     {"headings_again", german, "Zeit,Strom,Weg\n0,4,0\nZeit,Strom,Weg\n0.012,4.5,3\n"},
     {"names_of_several_words",

@@ -111,16 +111,17 @@ TEST(Sanity, OtherUnitsAreNamed) {
   const auto expect = [](double factor, const char* words) {
     EXPECT_TRUE(holds(says(scaled(factor)), words)) << factor;
   };
-  expect(
-      300.0,
-      "millimetres (mm), not a ratio; write columns: {contraction: {column: contraction_ratio, unit: mm}}");
+  expect(300.0,
+         "millimetres (mm), not a ratio; write columns: {contraction: {column: contraction_ratio, unit: mm, "
+         "factor: 1}}");
   expect(100.0,
-         "per cent, not a ratio; write columns: {contraction: {column: contraction_ratio, unit: \"%\"}}");
+         "per cent, not a ratio; write columns: {contraction: {column: contraction_ratio, unit: \"%\", "
+         "factor: 1}}");
   expect(0.3, "metres, not a ratio");
   expect(1.0 / 300.0, "a ratio that was divided by the rest length in millimetres");
   auto inches = scaled(1.0 / 25.4);
   read_from(inches, {"rope", "mm"});
-  EXPECT_TRUE(holds(says(inches), "{contraction: {column: rope, unit: in}}"));
+  EXPECT_TRUE(holds(says(inches), "{contraction: {column: rope, unit: in, factor: 1}}"));
 }
 
 TEST(Sanity, OneRunInAnotherUnitIsNamed) {

@@ -1,0 +1,95 @@
+// See the header.
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include <sim/data/gains.hpp>
+#include <sim/data/series.hpp>
+#include <sim/data/thresholds.hpp>
+
+namespace mckibben::data {
+namespace {
+
+using domain::ColumnPlace, domain::line_of;
+
+constexpr const ColumnThresholds& of_gains = thresholds.column;
+
+/// Of the squares of `by`, what is left of the readings beside the model with this scale and zero.
+template <class By>
+double share_left(const Compared& rows, double scale, double zero, const By& by) {
+  double left = 0.0, all = 0.0;
+  for (std::size_t k = 0; k < rows.model.size(); ++k) {
+    left += std::pow((rows.measured[k] - zero) / scale - rows.model[k], 2);
+    all += std::pow(by(k), 2);
+  }
+  return left / all;
+}
+
+/// To four digits, as a line to write has it.
+double shortened(double value) {
+  const std::string text = fmt::format("{:.4g}", value);
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+}  // namespace
+
+std::optional<Finding> halved_or_doubled(const Compared& contraction, ColumnPlace place) {
+  const Line line(contraction.measured, contraction.model);
+  for (const double factor : {0.5, 2.0}) {
+    if (std::abs(std::log(line.slope / factor)) > std::log(of_gains.halved) ||
+        line.correlation < of_gains.alike)
+      continue;
+    const auto model = [&](std::size_t k) { return contraction.model[k]; };
+    if (!(share_left(contraction, factor, 0.0, model) <= of_gains.halved_share)) continue;
+    place.factor /= factor;
+    return Finding{.quantity = "contraction",
+                   .runs = contraction.runs,
+                   .message = fmt::format(
+                       "contraction is {:.2f} times what pressure and load say, everywhere: are counts "
+                       "per turn {}, as by a decoder that sees other edges? Then columns: {{{}}}, or "
+                       "pulses_per_turn of the rig's encoder",
+                       line.slope, factor < 1.0 ? "halved" : "doubled", line_of("contraction", place)),
+                   .severity = Severity::doubtful};
+  }
+  return std::nullopt;
+}
+
+std::optional<Finding> other_zero(const Compared& contraction, ColumnPlace place, double ratio_per_unit) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < contraction.model.size(); ++k)
+    sum += contraction.measured[k] - contraction.model[k];
+  const double off = sum / static_cast<double>(contraction.model.size());
+  const auto as_it_is = [&](std::size_t k) { return contraction.measured[k] - contraction.model[k]; };
+  if (std::abs(off) < of_gains.other_zero * range(contraction.model) ||
+      !(share_left(contraction, 1.0, off, as_it_is) < of_gains.scaled_share))
+    return std::nullopt;
+  place.zero += off / ratio_per_unit / place.factor;
+  place.zero = shortened(place.zero);
+  return Finding{
+      .quantity = "contraction",
+      .runs = contraction.runs,
+      .message = fmt::format("contraction is {:.3g} more than pressure and load say, everywhere: is its "
+                             "zero what it reads at rest length? About columns: {{{}}}",
+                             off, line_of("contraction", place)),
+      .severity = Severity::doubtful};
+}
+
+std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, ColumnPlace place) {
+  const Line line(gauge.measured, gauge.model);
+  if (line.correlation < of_gains.alike || line.slope <= 0.0) return std::nullopt;
+  const double power = std::pow(10.0, std::round(std::log10(line.slope)));
+  const bool is_power = std::abs(std::log(line.slope / power)) < std::log(of_gains.same);
+  place.factor = shortened(place.factor / (is_power ? power : line.slope));
+  return Finding{
+      .quantity = key,
+      .runs = gauge.runs,
+      .message = fmt::format("{} is {:.3g} times what the rig would do, and no unit says why: is a factor "
+                             "of its gauge, or of its heading, left out? Then columns: {{{}}}",
+                             key, line.slope, line_of(key, place)),
+      .severity = Severity::doubtful};
+}
+
+}  // namespace mckibben::data

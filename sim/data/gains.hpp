@@ -1,0 +1,42 @@
+// Measured columns that differ from what the rig would do by nothing but a scale or a zero.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sim/data/finding.hpp>
+#include <sim/domain/columns.hpp>
+
+namespace mckibben::data {
+
+/// Measured and simulated, row by row.
+struct Compared {
+  std::vector<std::size_t> runs{};
+  std::vector<double> measured{}, model{};
+
+  /// Without rows that `is_missing` names; nothing if the simulation ended early.
+  template <class IsMissing>
+  void add(std::size_t run, const std::vector<double>& read, const std::vector<double>& simulated,
+           const IsMissing& is_missing) {
+    if (read.size() != simulated.size()) return;
+    runs.push_back(run);
+    for (std::size_t k = 0; k < read.size(); ++k) {
+      if (is_missing(k)) continue;
+      measured.push_back(read[k]);
+      model.push_back(simulated[k]);
+    }
+  }
+};
+
+/// A decoder that counts every second edge, or every edge twice.
+std::optional<Finding> halved_or_doubled(const Compared& contraction, domain::ColumnPlace place);
+
+/// A contraction that is too large or too small by the same everywhere. `ratio_per_unit`: of its column.
+std::optional<Finding> other_zero(const Compared& contraction, domain::ColumnPlace place,
+                                  double ratio_per_unit);
+
+/// A gauge that goes along with the model and shows many times, or a part of, what it would do.
+std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, domain::ColumnPlace place);
+
+}  // namespace mckibben::data

@@ -1,0 +1,93 @@
+// Sign and zero of a contraction; see columns.hpp.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <sim/input/quantity.hpp>
+#include <sim/recognise/columns.hpp>
+
+namespace mckibben::recognise {
+namespace {
+
+constexpr double least_correlation = 0.5, least_zero_share = 0.01, digits_of_range = 1e-4;
+constexpr double settled_share = 0.05, near_rest_share = 0.3;  ///< of the range of its readings
+
+/// The number that a muscle's length, or its ratio to that at rest, has at rest; none if nobody knows.
+std::optional<double> length_at_rest(const std::string& unit, bool is_length, const KnownRig& rig) {
+  if (unit == "1") return 1.0;
+  if (unit == "%") return 100.0;
+  if (!is_length || rig.rest_length_m == 0.0 || !input::unit_problem(unit, "m").empty()) return std::nullopt;
+  Values length{rig.rest_length_m};
+  input::convert_units(length, "m", unit);
+  return length.front();
+}
+
+/// Zero of a contraction that moves along with what drives the muscle; none: 0.
+std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess& drive, const Together& found,
+                              const Range& range, double lowest_drive, bool is_length, const KnownRig& rig) {
+  const std::string& unit = contraction.unit.value;
+  const double span = range.high - range.low;
+  const bool falls = found.correlation < 0.0, ratio = unit == "1" || unit == "%";
+  const double at_rest = falls ? range.high : range.low;  // of its readings, the nearest to it
+  const std::optional<double> rest = length_at_rest(unit, is_length, rig);
+  const bool near_rest = rest && std::abs(at_rest - *rest) <= near_rest_share * span;
+  if (falls && near_rest)
+    return Told{fmt::format("{:.12g}", *rest), "what a length, or its ratio to that at rest, reads at rest"};
+  if (is_length)
+    return left_open(
+        fmt::format("what it reads at the muscle's rest length; its readings go from {:.6g} to {:.6g}",
+                    range.low, range.high));
+  const bool from_rest = ratio || unit == "count";
+  if (from_rest && (!falls || std::abs(at_rest) <= near_rest_share * span || range.high <= 0.0))
+    return std::nullopt;
+  if (std::abs(found.at_least_drive) < least_zero_share * span) return std::nullopt;
+  const double step = std::pow(10.0, std::floor(std::log10(digits_of_range * span)));
+  const auto rounded = [&](double value) { return fmt::format("{:.12g}", std::round(value / step) * step); };
+  if (found.scatter > settled_share * span)
+    return left_open(
+        fmt::format("what it reads at the muscle's rest length; where {} is lowest, {:.4g}, it still "
+                    "moves by {:.4g} {}; perhaps {}, the end of its readings",
+                    drive.column.value, lowest_drive, found.scatter, unit, rounded(at_rest)));
+  return Told{rounded(found.at_least_drive),
+              fmt::format("its median where {} is lowest, {:.4g}: is the muscle at rest length there?",
+                          drive.column.value, lowest_drive)};
+}
+
+}  // namespace
+
+void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
+                   const std::vector<const UnknownTable*>& tables, bool is_length, const KnownRig& rig) {
+  std::vector<const Values*> drives, readings;
+  Range range{1e300, -1e300}, driven = range;
+  for (const UnknownTable* table : tables) {
+    drives.push_back(column_of(*table, drive.column.value));
+    readings.push_back(column_of(*table, contraction.column.value));
+    if (drives.back() == nullptr || readings.back() == nullptr) return;
+    const Range own = range_of(*readings.back()), of_drive = range_of(*drives.back());
+    range = {std::min(range.low, own.low), std::max(range.high, own.high)};
+    driven.low = std::min(driven.low, of_drive.low);
+  }
+  const Together found = together(drives, readings);
+  const std::string along = fmt::format("correlation with {} {:.2f}", drive.column.value, found.correlation);
+  const bool scale_is_open = contraction.unit.open() || (contraction.factor && contraction.factor->open());
+  if (std::abs(found.correlation) < least_correlation) {
+    const std::string weak = ": too weak to decide its sign; 1 if it grows as the muscle contracts, else -1";
+    contraction.factor =
+        left_open((contraction.factor ? contraction.factor->reason + "; " : "") + along + weak);
+    contraction.zero = left_open("what it reads with the muscle at its rest length");
+    return;
+  }
+  const bool falls = found.correlation < 0.0;
+  if (falls && contraction.factor && contraction.factor->open())
+    contraction.factor->reason += "; and negative, as it falls while the muscle contracts, " + along;
+  else if (falls)
+    contraction.factor = Told{"-1", "it falls as the muscle contracts, " + along};
+  const double at_rest = falls ? range.high : range.low;
+  if (!scale_is_open)
+    contraction.zero = zero_told(contraction, drive, found, range, driven.low, is_length, rig);
+  else if (std::abs(at_rest) > near_rest_share * (range.high - range.low))
+    contraction.zero = left_open("what it reads with the muscle at its rest length, in its unit");
+}
+
+}  // namespace mckibben::recognise

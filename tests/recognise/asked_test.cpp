@@ -1,0 +1,221 @@
+// What can be read in two ways is asked, and never misread in silence.
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sim/input/diagnostics.hpp>
+#include <sim/recognise/headings.hpp>
+#include <sim/recognise/recognise.hpp>
+
+#include "says.hpp"
+#include "scratch.hpp"
+
+namespace mckibben::recognise {
+namespace {
+
+class Asked : public ::testing::Test {
+ protected:
+  /// Of a table of 200 rows: `row(k)` is a line.
+  template <class Row>
+  Recognised of(const std::string& head, const Row& row, const std::string& name = "5kg.csv",
+                const KnownRig& rig = {}) const {
+    std::string text = head;
+    for (int k = 0; k < 200; ++k) text += row(k) + "\n";
+    return recognise({folder_.write(name, text)}, true, rig);
+  }
+  static double drive(int k) { return 0.5 - 0.5 * std::cos(0.03 * k); }
+  static const ColumnGuess& column(const Recognised& found, const char* key) {
+    return *found.maps[0].find(key);
+  }
+  static std::string start(const Recognised& found) {
+    for (const Setting& each : found.dataset)
+      if (each.key == "start") return each.told.value;
+    return "";
+  }
+
+  Scratch folder_;
+};
+
+TEST_F(Asked, ASignMayStandBeforeDecimalsOrBetweenThousands) {
+  const auto pascals = [](const char* time, const char* sign) {
+    return [=](int k) {
+      const int p = 50000 + 1000 * static_cast<int>(300 * drive(k));
+      return fmt::format("{}{};{}{}{:03};{:.0f}", 12 * k, time, p / 1000, sign, p % 1000 + k % 7,
+                         100 * drive(k));
+    };
+  };
+  const Recognised either = of("t [ms];p [Pa];x [mm]\n", pascals("", "."));
+  EXPECT_TRUE(column(either, "muscle_pressure").factor->open());
+  EXPECT_TRUE(holds(column(either, "muscle_pressure").factor->reason, "50.000", "1000"));
+  const Recognised german = of("t [ms];p [Pa];x [mm]\n", pascals(",0", "."));
+  EXPECT_FALSE(column(german, "muscle_pressure").factor) << "the other column's comma is its decimal sign";
+  EXPECT_NEAR(german.tables[0].find("p [Pa]")->values[100], 349002, 1500);
+  const auto counting = [](int k) {
+    const int t = 12 * k;
+    return fmt::format("{}{},{:.0f},{:.0f}", t < 1000 ? "" : fmt::format("\"{},", t / 1000),
+                       t < 1000 ? std::to_string(t) : fmt::format("{:03}\"", t % 1000), 16 * drive(k),
+                       100 * drive(k));
+  };
+  const Recognised over = of("t [ms],I [mA],x [mm]\n", counting);
+  EXPECT_EQ(over.runs.size(), 1u) << "996 goes on to 1,008";
+  EXPECT_DOUBLE_EQ(over.tables[0].columns[0].values[84], 1008.0);
+}
+
+TEST_F(Asked, ARateOfOneThousandIsNoRateOfOne) {
+  const auto row = [](int k) { return fmt::format("{},{:.3f},{:.3f}", k, 5 * drive(k), 10 * drive(k)); };
+  EXPECT_EQ(column(of("Sample rate: 1,000 Hz\nn,p_bar,x_mm\n", row), "time").factor->value, "0.001");
+  EXPECT_EQ(of("Backup interval: 1 s\nn,p_bar,x_mm\n", row).maps[0].find("time"), nullptr);
+}
+
+TEST_F(Asked, ALineBetweenRowsNamesTheLoadBelow) {
+  const auto row = [](int k) {
+    return fmt::format("{}{:.3f},{:.3f},{:.2f}", k == 100 ? "Run 2: load 7 kg\n" : "", 0.012 * k,
+                       5 * drive(k), 10 * drive(k));
+  };
+  const Recognised found = of("Run 1: load 5 kg\nt_s,p_bar,x_mm\n", row, "runs.csv");
+  ASSERT_EQ(found.runs.size(), 2u);
+  EXPECT_EQ(found.runs[0].load->value, "5 kg");
+  EXPECT_EQ(found.runs[1].load->value, "7 kg");
+  EXPECT_EQ(found.tables[0].part, std::vector<std::string>{"to: 1.188 s"});
+  EXPECT_EQ(found.tables[1].part, std::vector<std::string>{"from: 1.2 s"});
+  const auto again = [](int k) {
+    return fmt::format("{}{:.3f},{:.3f},{:.2f}", k == 100 ? "Run 2, load 7 kg, cold, new\n" : "",
+                       0.012 * (k % 100), 5 * drive(k), 10 * drive(k));
+  };
+  const Recognised restarted = of("Run 1: load 5 kg\nt_s,p_bar,x_mm\n", again, "runs.csv");
+  ASSERT_EQ(restarted.runs.size(), 2u);
+  EXPECT_EQ(restarted.runs[1].load->value, "7 kg");
+  EXPECT_EQ(restarted.tables[1].part, std::vector<std::string>{"segment: 2"});
+}
+
+TEST_F(Asked, AnotherTableBelowIsRefused) {
+  const auto row = [](int k) {
+    return fmt::format("{}{:.3f},{:.3f},{:.2f}", k == 100 ? "t_s,p_kPa,x_mm\n" : "", 0.012 * k, 5 * drive(k),
+                       10 * drive(k));
+  };
+  try {
+    of("t_s,p_bar,x_mm\n", row);
+    FAIL();
+  } catch (const input::BadInput& bad) {
+    EXPECT_TRUE(holds(bad.what(), "csv:102:1", "another table begins here"));
+  }
+}
+
+TEST_F(Asked, OfSeveralMassesTheOneThatAWordCallsALoad) {
+  const auto load = [&](const std::string& name, const std::string& line) {
+    const auto row = [](int k) {
+      return fmt::format("{},{:.3f},{:.3f}", 12 * k, 5 * drive(k), 10 * drive(k));
+    };
+    const Recognised found = of(line + "t_ms,p_bar,x_mm\n", row, name);
+    return found.runs[0].load->value;
+  };
+  EXPECT_EQ(load("a.csv", "# Muscle mass: 250 g\n# Load 11.138 kg\n"), "11.138 kg");
+  EXPECT_EQ(load("a.csv", "# tare 0.250 kg, payload 10.888 kg\n"), "10.888 kg");
+  EXPECT_EQ(load("m0.5kg_payload_11.138kg.csv", ""), "11.138 kg");
+  EXPECT_EQ(load("muscle20g_load11.138kg.csv", ""), "11.138 kg");
+  EXPECT_EQ(load("a.csv", "# Mass: 5 kg\n"), "5 kg");
+  for (const char* candidate : {"# Muscle mass: 250 g\n", "# Accelerometer 2 g range\n",
+                                "# bench 2, max 20 kg\n", "# Spring 2 kg/m\n"})
+    EXPECT_EQ(load("a.csv", candidate), domain::fill_in) << candidate;
+  EXPECT_EQ(load("exp2g.csv", ""), domain::fill_in);
+  EXPECT_EQ(load("5kg.csv", "# load 7 kg\n"), domain::fill_in) << "they disagree";
+  EXPECT_EQ(load("5kg.csv", "# load 5 kg\n"), "5 kg");
+}
+
+TEST_F(Asked, TheZeroOfWhatStillMovesWhereItsDriveIsLowest) {
+  const auto late = [](const char* form, double zero, double size) {
+    return [=](int k) {
+      const double i = k % 100 < 50 ? 4.0 : 16.0, x = 0.5 + 0.5 * std::sin(0.0628 * (k % 100 - 62));
+      return fmt::format("{},{:.1f},{}", 12 * k, i, fmt::format(fmt::runtime(form), zero + size * x));
+    };
+  };
+  EXPECT_TRUE(column(of("t_ms,I_mA,x_mm\n", late("{:.2f}", 1.0, 70.0)), "contraction").zero->open());
+  EXPECT_FALSE(column(of("t_ms,I_mA,Strain (%)\n", late("{:.2f}", 0.0, -25.0)), "contraction").zero);
+  EXPECT_EQ(column(of("t_ms,I_mA,Length (%)\n", late("{:.2f}", 100.0, -25.0)), "contraction").zero->value,
+            "100");
+  EXPECT_EQ(
+      column(of("t_ms,I_mA,Normalized length (1)\n", late("{:.4f}", 1.0, -0.25)), "contraction").zero->value,
+      "1");
+  const Recognised length = of("t_ms,I_mA,muscle length (mm)\n", late("{:.2f}", 299.0, -70.0), "5kg.csv",
+                               {.tick_s = 0.012, .rest_length_m = 0.3});
+  EXPECT_EQ(column(length, "contraction").zero->value, "300");
+  const Recognised unit = of("t_ms,I_mA,encoder\n", late("{:.0f}", 984.0, 300.0));
+  EXPECT_TRUE(column(unit, "contraction").zero->open()) << "its unit is open";
+}
+
+TEST_F(Asked, AFactorInAHeadingAndTwoUnits) {
+  const auto row = [](int k) {
+    return fmt::format("{},{:.3f},{:.3f}", 12 * k, 50 * drive(k), 10 * drive(k));
+  };
+  for (const char* head :
+       {"t_ms,p*10 [bar],x_mm\n", "t_ms,Pressure x10 (bar),x_mm\n", "t_ms,p/10 [bar],x_mm\n"})
+    EXPECT_TRUE(column(of(head, row), "muscle_pressure").factor->open()) << head;
+  const Recognised milli = of("t_ms,Pressure (mPa),x_mm\n", row);
+  EXPECT_TRUE(column(milli, "muscle_pressure").unit.open());
+  const Recognised two = of("t_ms,p_bar,x_mm\ns,bar,mm\n", row);
+  EXPECT_TRUE(column(two, "time").unit.open());
+  EXPECT_EQ(column(two, "time").factor->value, "1") << "else the reader asks again";
+  EXPECT_TRUE(column(of("Sample rate: 1000 Hz\nt_ms,p_bar,x_mm\n", row), "time").unit.open());
+  EXPECT_EQ(heading_of({"x_1", "", false}).unit, "") << "the first of several";
+}
+
+TEST_F(Asked, WhatSomethingReadsIsNoCommand) {
+  const auto row = [](int k) {
+    return fmt::format("{},{:.3f},{:.3f}", 12 * k, 4 + 16 * drive(k), 10 * drive(k));
+  };
+  for (const char* head : {"t_ms,Transmitter (mA),x_mm\n", "t_ms,Sensor voltage (V),x_mm\n"}) {
+    const Recognised found = of(head, row);
+    EXPECT_TRUE(column(found, "command").column.open()) << head;
+    EXPECT_TRUE(holds(column(found, "command").column.reason, "perhaps one of")) << head;
+  }
+}
+
+TEST_F(Asked, StartIsWrittenWhereCheckNeedsIt) {
+  const auto line = [](double t_s, int k) {
+    return fmt::format("{:.3f},{:.3f},{:.4f}", t_s, k < 5 ? 0.0 : 16 * drive(k - 5),
+                       k < 5 ? 0.0 : 0.2 * drive(k - 5));
+  };
+  const char* const head = "time_s,current_mA,contraction_ratio\n";
+  const auto ticks = [&](int k) { return line(0.012 * k, k); };
+  const KnownRig rig{.tick_s = 0.012, .rest_length_m = 0.3};
+  EXPECT_EQ(start(of(head, ticks, "5kg.csv", rig)), "");
+  EXPECT_EQ(start(of(head, ticks, "5kg.csv", {.tick_s = 0.001, .rest_length_m = 0.3})), "settled")
+      << "not the rig's tick";
+  EXPECT_EQ(start(of(
+                head, [&](int k) { return line(0.012 * (k / 2), k); }, "5kg.csv", rig)),
+            "settled")
+      << "stamps repeat";
+  const Recognised lacks = of(
+      head, [&](int k) { return k == 40 ? fmt::format("{:.3f},7.000,", 0.012 * k) : ticks(k); }, "5kg.csv",
+      rig);
+  EXPECT_EQ(start(lacks), "settled");
+  EXPECT_TRUE(holds(lacks.maps[0].remarks.at(0), "1 of its 200 cells are empty, the first in line 42"));
+}
+
+TEST_F(Asked, RowsThatHaveLostACellAreSaidAndLeftOut) {
+  const auto row = [](int k) {
+    return k == 40 ? fmt::format("{},{:.3f}", 12 * k, 10 * drive(k))
+                   : fmt::format("{},{:.3f},{:.3f}", 12 * k, 5 * drive(k), 10 * drive(k));
+  };
+  const Recognised found = of("t_ms,p_bar,x_mm\n", row);
+  EXPECT_EQ(found.tables[0].rows(), 199u);
+  EXPECT_TRUE(holds(found.maps[0].remarks.at(0), "1 row lacks cells, the first in line 42"));
+}
+
+TEST_F(Asked, ZerosBeforeNumbersAndStampsThatNobodyReads) {
+  const auto padded = [](int k) {
+    return fmt::format("{:07.3f},{:06.3f},{:06.2f}", 12.0 * k, 5 * drive(k), 10 * drive(k));
+  };
+  const Recognised found = of("t_ms,p_bar,x_mm\n", padded);
+  EXPECT_DOUBLE_EQ(found.tables[0].find("t_ms")->values[1], 12.0);
+  std::string worded = "time,p_bar,x_mm\n";  // more than can be labels
+  for (int k = 0; k < 300; ++k)
+    worded += fmt::format("May{:03}th,{:.3f},{:.2f}\n", k, 5 * drive(k), 10 * drive(k));
+  EXPECT_TRUE(holds(column(recognise({folder_.write("5kg.csv", worded)}, true), "time").column.reason,
+                    "read as no number", "May000th"));
+}
+
+}  // namespace
+}  // namespace mckibben::recognise
