@@ -193,7 +193,7 @@ void read_text(const Source& source, UnknownTable& table) {
   }
   for (std::size_t line = layout.first_row; line <= layout.last_row; ++line) {
     const input::Line kind = input::kind_of(source, layout, line);
-    if (kind == input::Line::remark && !all.front().column.values.empty())
+    if (kind == input::Line::remark && !all.empty() && !all.front().column.values.empty())
       table.between.push_back(
           {all.front().column.values.size(), source.line_in_file(line), std::string(source.line(line))});
     if (kind != input::Line::row) continue;
