@@ -1,5 +1,5 @@
-# What `cmake --install` and the Debian package put where: the program with its manual and completion, the rig as a
-# library with its headers for find_package(mckibben), the scenarios.
+# What `cmake --install` and the Debian package put where: the program with its manual, completion and documentation,
+# the rig as a library with its headers for find_package(mckibben), the scenarios, the module for Debian's Python.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -7,6 +7,7 @@ install(TARGETS mckibben)
 install(DIRECTORY scenarios DESTINATION ${CMAKE_INSTALL_DATADIR}/mckibben)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # What the program says of itself is asked when it is there.
 set(said ${PROJECT_BINARY_DIR}/said)
@@ -14,6 +15,13 @@ install(CODE "execute_process(COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:
   -D VERSION=${PROJECT_VERSION} -P ${PROJECT_SOURCE_DIR}/cmake/said.cmake COMMAND_ERROR_IS_FATAL ANY)")
 install(DIRECTORY ${said}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
 install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME mckibben)
+
+# Where the module was built, as the package does.
+if(TARGET mckibben_python)
+  set(module lib/python3/dist-packages/mckibben) # Debian's, in /usr
+  install(DIRECTORY sim/python/mckibben/ DESTINATION ${module} FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed)
+  install(TARGETS mckibben_python DESTINATION ${module} OPTIONAL)
+endif()
 
 # The library: the rig and a ride on it (docs/library.md).
 set(library plant engine ride)
@@ -35,10 +43,12 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "the McKibben maintainers")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "simulator of a pneumatic artificial muscle that lifts a load")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Simulates a McKibben muscle, its valve, its load and its controllers, and finds in
- measurements what a real rig has besides. With headers and a library for programs of one's own.")
+ measurements which effects a real rig shows and the model lacks. With a module for Python, and headers and a library
+ for C++.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS python3-numpy) # for the module
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libeigen3-dev, libfmt-dev, libsundials-dev") # to compile against the library
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)

@@ -53,4 +53,11 @@ foreach(library sundials udunits netcdf yaml-cpp)
 endforeach()
 do(dpkg-deb --contents ${package})
 expect("${said}" "\\./usr/bin/mckibben\n")
+expect("${said}" "\\./usr/share/doc/mckibben/docs/start_here.md\n")
+if(PYTHON) # the module was built
+  expect("${said}" "\\./usr/lib/python3/dist-packages/mckibben/_core[^\n]*so\n")
+  do(${CMAKE_COMMAND} -E env PYTHONPATH=${prefix}/lib/python3/dist-packages ${PYTHON} -c
+     "import mckibben\nprint(mckibben.__file__, mckibben.Scenario('${prefix}/share/mckibben/scenarios/step_response.yaml').run())")
+  expect("${said}" "^${prefix}/lib/python3/dist-packages/mckibben/__init__.py step_response: ")
+endif()
 file(REMOVE_RECURSE ${FOLDER})
