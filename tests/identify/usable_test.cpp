@@ -93,7 +93,8 @@ TEST(Usable, AnglesAndPressuresThatAreNotWhatTheirColumnsSayAreRefusedWithTheLin
                       "or exchange muscle 1 and muscle 2"),
             std::string::npos)
       << refused(data, times(-1.0));
-  EXPECT_NE(refused(data, times(1.0 / plant::degree_rad)).find("{angle: {column: angle_rad, unit: deg, factor: 1}}"),
+  EXPECT_NE(refused(data, times(1.0 / plant::degree_rad))
+                .find("{angle: {column: angle_rad, unit: deg, factor: 1}}"),
             std::string::npos);
   data.columns["angle"] = {.column = "elbow", .unit = "deg"};
   EXPECT_NE(refused(data, times(plant::degree_rad)).find("{angle: {column: elbow, unit: rad, factor: 1}}"),
