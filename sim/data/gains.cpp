@@ -1,5 +1,4 @@
 // See the header.
-#include <charconv>
 #include <cmath>
 #include <string>
 
@@ -8,6 +7,7 @@
 #include <sim/data/gains.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
+#include <sim/domain/number.hpp>
 
 namespace mckibben::data {
 namespace {
@@ -27,12 +27,7 @@ double share_left(const Compared& rows, double scale, double zero, const By& by)
   return left / all;
 }
 
-/// To four digits, as a line to write has it.
-double shortened(double value) {
-  const std::string text = fmt::format("{:.4g}", value);
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
-}
+constexpr int digits = 4;  // of numbers in a line to write
 
 }  // namespace
 
@@ -66,8 +61,7 @@ std::optional<Finding> other_zero(const Compared& contraction, ColumnPlace place
   if (std::abs(off) < of_gains.other_zero * range(contraction.model) ||
       !(share_left(contraction, 1.0, off, as_it_is) < of_gains.scaled_share))
     return std::nullopt;
-  place.zero += off / ratio_per_unit / place.factor;
-  place.zero = shortened(place.zero);
+  place.zero = domain::significant(place.zero + off / ratio_per_unit / place.factor, digits);
   return Finding{
       .quantity = "contraction",
       .runs = contraction.runs,
@@ -82,7 +76,7 @@ std::optional<Finding> other_gain(const Compared& gauge, const std::string& key,
   if (line.correlation < of_gains.alike || line.slope <= 0.0) return std::nullopt;
   const double power = std::pow(10.0, std::round(std::log10(line.slope)));
   const bool is_power = std::abs(std::log(line.slope / power)) < std::log(of_gains.same);
-  place.factor = shortened(place.factor / (is_power ? power : line.slope));
+  place.factor = domain::significant(place.factor / (is_power ? power : line.slope), digits);
   return Finding{
       .quantity = key,
       .runs = gauge.runs,

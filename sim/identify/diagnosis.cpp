@@ -80,16 +80,10 @@ class HandingOver {
       warn("the rig's residual_law is kept as it is: if it is wrong, take it out");
   }
 
-  static bool has_effects(const Model& model) {
-    return std::ranges::any_of(model.point.effects, [&](const Added& added) {
-      return model.problem->dictionary.entries[added.entry].effect.has_value();
-    });
-  }
-
   /// Names that predict unseen runs better than general terms do alone, and close most of the gap that the
   /// parameters leave, where both together explain the data: the terms are something else that is missing.
   bool names_hold() const {
-    if (!has_effects(found_.chosen())) return false;
+    if (!found_.chosen().has_effects()) return false;
     Point without_terms = found_.chosen().point;
     without_terms.terms = Terms::none;
     const auto names = found_.study->dictionary.names(without_terms);
@@ -97,7 +91,8 @@ class HandingOver {
     for (std::size_t i = 0; i < found_.table.size(); ++i) {
       const Judged& one = found_.table[i];
       if (!one.general && one.names == names) named = i;
-      if (one.general && !has_effects(found_.models[i]) && (!terms || one.score > found_.table[*terms].score))
+      if (one.general && !found_.models[i].has_effects() &&
+          (!terms || one.score > found_.table[*terms].score))
         terms = i;
     }
     if (!named || !terms) return false;
@@ -118,7 +113,7 @@ class HandingOver {
   Verdict of_the_rig(Verdict decided) const {
     if (decided == Verdict::unknown_effect && names_hold()) return Verdict::missing_effect;
     const Model& model = found_.chosen();
-    if (decided != Verdict::missing_effect || has_effects(model)) return decided;
+    if (decided != Verdict::missing_effect || model.has_effects()) return decided;
     return (model.point.z.cwiseAbs().array() > diagnose::thresholds.parameter.notable).any()
                ? Verdict::recalibrate
                : Verdict::nothing_missing;

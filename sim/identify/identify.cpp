@@ -116,10 +116,7 @@ double Search::gain_of_terms(const Model& base) const {
 /// Where the bench alone is wrong, the rig may be as described.
 void Search::describe_bench() {
   const Names names = dictionary_.names(here_->point);
-  const bool of_rig = std::ranges::any_of(here_->point.effects, [&](const Added& one) {
-    return dictionary_.entries[one.entry].effect.has_value();
-  });
-  if (names.empty() || of_rig) return;
+  if (names.empty() || here_->has_effects()) return;
   Point point = here_->point;
   point.z.resize(0);
   Model m(problem_, std::move(point), here_->error);

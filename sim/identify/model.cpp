@@ -41,6 +41,12 @@ Eigen::VectorXd Model::residual() const {
   return left;
 }
 
+bool Model::has_effects() const {
+  return std::ranges::any_of(point.effects, [&](const Added& added) {
+    return problem->dictionary.entries[added.entry].effect.has_value();
+  });
+}
+
 double Model::left() const {
   const Rows& rows = problem->rows;
   const Eigen::VectorXd all = residual();

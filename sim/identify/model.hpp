@@ -56,6 +56,8 @@ class Model {
   Eigen::VectorXd residual() const;
   /// Root mean square of the judged reading's, in units of the rows.
   double left() const;
+  /// Effects of the rig, not only faults of the bench.
+  bool has_effects() const;
   /// Variances of the priors, of the normals that touch them.
   Eigen::VectorXd variance() const;
   double log_prior() const;

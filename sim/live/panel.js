@@ -68,6 +68,11 @@ function setEffect(name, on, size, shape) {
   ask('effect ' + name, {do: 'effect', name, on, size, shape: shape ?? 0});
 }
 
+function allOff() {
+  for (const one of live.state.effects)
+    if (one.on) setEffect(one.name, false, one.size, one.shape);
+}
+
 /** A slider of an effect. Sizes go evenly, shapes by their logarithm. */
 function dialOf(one, which, label) {
   const {least, most} = one[which], even = which === 'size';
@@ -100,8 +105,7 @@ function hideOne() {
   const {name, size, shape} = off[Math.floor(Math.random() * off.length)];
   const {size: dial} = report.switches.find((one) => one.name === name);
   const times = 1 + Math.random();
-  for (const one of live.state.effects)
-    if (one.on) setEffect(one.name, false, one.size, one.shape);
+  allOff();
   hidden = name;
   setEffect(name, true, Math.min(dial.most, Math.max(dial.least, times * size)), shape);
   say('One effect is at work. Move the rig, look at the loops, and choose which one it is.');
@@ -234,10 +238,7 @@ function prepareControls() {
   byId('hide').addEventListener('click', hideOne);
   byId('guess').addEventListener('change', () => guess(byId('guess').value));
   byId('give-up').addEventListener('click', () => reveal('It was '));
-  byId('all-off').addEventListener('click', () => {
-    for (const one of live.state.effects)
-      if (one.on) setEffect(one.name, false, one.size, one.shape);
-  });
+  byId('all-off').addEventListener('click', allOff);
   document.addEventListener('keydown', (event) => {
     if (event.key !== ' ' || event.target.closest('input, select, button, summary, a')) return;
     event.preventDefault();

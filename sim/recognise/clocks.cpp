@@ -70,9 +70,7 @@ bool are_late(const Values& a, const Values& b) {
 Told unit_of(const UnknownColumn& column, const Heading& heading, const SaidStep& said) {
   if (column.is_date) return {std::string(input::date_unit), "it holds dates"};
   const std::string unit = unit_of_epoch(column.epoch);
-  if (!heading.other_unit.empty())
-    return left_open(
-        fmt::format("its heading says {}, the line below it {}: which?", heading.other_unit, heading.unit));
+  if (!heading.other_unit.empty()) return two_units(heading);
   if (heading.unit_fits && said.step_s > 0.0) {
     constexpr double alike = 1.02;
     const Clock clock = clock_of(column.values);
@@ -108,10 +106,9 @@ ColumnGuess guess_of_time(const UnknownColumn& column, const Heading& heading, c
                     {},
                     {}};
   if (!column.either.empty())
-    guess.factor = left_open(fmt::format(
-        "the sign in {} may stand before decimals, 1, or between thousands, 1000", column.either));
+    guess.factor = decimals_or_thousands(column.either);
   else if (!heading.other_unit.empty())
-    guess.factor = Told{"1", "the unit that is written here counts, not the heading's"};
+    guess.factor = unit_of_the_map();
   if (!column.is_date && are_intervals(column.values))
     guess.input = Told{"interval", "its numbers are alike and do not ascend: the time since the row before"};
   return guess;

@@ -27,9 +27,7 @@ bool is_misspelt(const std::string& unit) {
 }
 
 Told unit_told(const Heading& heading) {
-  if (!heading.other_unit.empty())
-    return left_open(
-        fmt::format("its heading says {}, the line below it {}: which?", heading.other_unit, heading.unit));
+  if (!heading.other_unit.empty()) return two_units(heading);
   if (is_misspelt(heading.unit)) return left_open("the table says mPa, a thousandth of a pascal: MPa?");
   if (heading.unit_fits) return {heading.unit, fmt::format("the table says {}", heading.unit)};
   if (!heading.unknown.empty())
@@ -43,14 +41,11 @@ Told unit_told(const Heading& heading) {
 
 /// What is asked of a column's factor, or must be written where its unit contradicts a heading.
 std::optional<Told> factor_told(const Named& of) {
-  if (!of.column->either.empty())
-    return left_open(fmt::format("the sign in {} may stand before decimals, 1, or between thousands, 1000",
-                                 of.column->either));
+  if (!of.column->either.empty()) return decimals_or_thousands(of.column->either);
   if (!of.heading.times.empty())
     return left_open(fmt::format("its heading says {}: what one of its numbers is in its unit, 0.1, 10 or 1",
                                  of.heading.times));
-  if (!of.heading.other_unit.empty() || is_misspelt(of.heading.unit))
-    return Told{"1", "the unit that is written here counts, not the heading's"};
+  if (!of.heading.other_unit.empty() || is_misspelt(of.heading.unit)) return unit_of_the_map();
   return std::nullopt;
 }
 
@@ -264,6 +259,20 @@ Setting rows_of_ticks(const UnknownTable& table, bool rig_is_known) {
 }
 
 }  // namespace
+
+Told two_units(const Heading& heading) {
+  return left_open(
+      fmt::format("its heading says {}, the line below it {}: which?", heading.other_unit, heading.unit));
+}
+
+Told decimals_or_thousands(const std::string& number) {
+  return left_open(
+      fmt::format("the sign in {} may stand before decimals, 1, or between thousands, 1000", number));
+}
+
+Told unit_of_the_map() {
+  return {"1", "the unit that is written here counts, not the heading's"};
+}
 
 MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known, const KnownRig& rig) {
   const UnknownTable& table = *tables.front();

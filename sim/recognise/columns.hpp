@@ -10,6 +10,7 @@
 namespace mckibben::recognise {
 
 using Values = std::vector<double>;
+struct Heading;
 
 /// The map of tables whose columns have the same names.
 MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known, const KnownRig& rig);
@@ -19,6 +20,13 @@ const Values* column_of(const UnknownTable& table, const std::string& name);
 
 /// What commands the muscle in such tables, or its pressure as an input; null if nothing.
 const ColumnGuess* drive_of(const MapGuess& map);
+
+/// Two units that a heading and the line below it say: which one is asked.
+Told two_units(const Heading& heading);
+/// A number that may be read with decimals or with thousands: asked.
+Told decimals_or_thousands(const std::string& number);
+/// The factor where the unit of the map contradicts what the file says.
+Told unit_of_the_map();
 
 /// Sign and zero of a contraction, by how it goes along with what drives the muscle.
 void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,

@@ -4,12 +4,11 @@
 class LeverPicture {
   constructor(svg) {
     const {lever, rest_length_m: l0, rest_radius_m: r0, braid_angle_rad: alpha0} = report.rig;
-    Object.assign(this, {svg, lever, l0});
-    const reach = Math.max(lever.load_at_m, lever.centre_m, lever.attached_m);
+    Object.assign(this, {svg, lever, l0, reach: Math.max(lever.load_at_m, lever.centre_m, lever.attached_m)});
     const {lowest_rad: low, highest_rad: high} = lever;
     const angles = Array.from({length: 25}, (_, i) => low + ((high - low) * i) / 24);
     const ways = angles.map((angle) => this.line(angle));
-    const points = [[0, 0], ...ways.flat(), ...angles.map((angle) => this.along(reach, angle))];
+    const points = [[0, 0], ...ways.flat(), ...angles.map((angle) => this.along(this.reach, angle))];
     const [left, right, top, bottom] =
         [0, 1].flatMap((i) => [Math.min(...points.map((p) => p[i])), Math.max(...points.map((p) => p[i]))]);
     const thick = r0 / Math.sin(alpha0);
@@ -94,8 +93,7 @@ class LeverPicture {
     if (lever.arms.length > 0) this.wheel.setAttribute('r', (this.mm * this.armAt(angle)).toFixed(1));
     const carries = lever.load_at_m > 0 && loadKg > 0;
     const at = (distance, where) => this.onPage(this.along(distance, where)).map((v) => v.toFixed(1));
-    const reach = Math.max(lever.load_at_m, lever.centre_m, lever.attached_m);
-    this.arm.setAttribute('d', `M${pivot.x} ${pivot.y}L${at(reach, angle)}`);
+    this.arm.setAttribute('d', `M${pivot.x} ${pivot.y}L${at(this.reach, angle)}`);
     const [x, y] = at(carries ? lever.load_at_m : lever.centre_m, angle);
     this.bob.setAttribute('cx', x);
     this.bob.setAttribute('cy', y);
@@ -107,7 +105,7 @@ class LeverPicture {
         'd',
         wanted === undefined || wanted === null ?
             '' :
-            `M${pivot.x} ${pivot.y}L${at(reach, (wanted * Math.PI) / 180)}`);
+            `M${pivot.x} ${pivot.y}L${at(this.reach, (wanted * Math.PI) / 180)}`);
     this.valve.draw(values);
     this.muscle.fill(values.muscle_pressure ?? values.reference_pressure);
     write(this.numbers, `joint angle ${fixed(values.angle, 1)}°`);
