@@ -3,8 +3,12 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
@@ -36,16 +40,27 @@ std::vector<fs::path> tables_of(const std::vector<std::string>& files) {
       continue;
     }
     std::vector<fs::path> inside;
+    std::set<std::string> folders, others;  // what is inside instead
     for (const auto& entry : fs::directory_iterator(file)) {
       std::string ending = entry.path().extension().string();
       std::ranges::transform(ending, ending.begin(),
                              [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
       const std::string name = entry.path().stem().string();
-      if (entry.is_regular_file() && !name.starts_with('.') && !name.starts_with("README") &&
-          !name.starts_with("LICENSE") && std::ranges::find(endings, ending) != endings.end())
+      const bool no_ending = ending.size() > 1 && std::isdigit(static_cast<unsigned char>(ending[1])) != 0;
+      if (entry.is_directory()) folders.insert(entry.path().filename().string());
+      if (!entry.is_regular_file() || name.starts_with('.') || name.starts_with("README") ||
+          name.starts_with("LICENSE"))
+        continue;
+      if (no_ending || std::ranges::find(endings, ending) != endings.end())
         inside.push_back(entry.path());
+      else
+        others.insert(ending);
     }
-    if (inside.empty()) throw input::MissingInput(file.string() + ": no table is in this folder");
+    if (inside.empty())
+      throw input::MissingInput(fmt::format(
+          "{}: no table is in this folder{}{}", file.string(),
+          others.empty() ? "" : fmt::format("; {} is read as none: save it as CSV", fmt::join(others, ", ")),
+          folders.empty() ? "" : fmt::format("; name the folders in it: {}", fmt::join(folders, ", "))));
     std::ranges::sort(inside);
     tables.insert(tables.end(), inside.begin(), inside.end());
   }

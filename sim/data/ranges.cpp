@@ -185,7 +185,9 @@ class Ranges {
           if (value > most) most = value;
         }
         if (marks)
-          message += ": does it stand for readings that are missing? Then leave these cells empty";
+          message +=
+              ": does it stand for readings that are missing? Then write missing: and that number, as the "
+              "file has it, in the place of its column";
         else
           message += fmt::format(", as in {} of {} rows, which go from {:.6g} to {:.6g}; {}", count,
                                  values.size(), least, most, hint);

@@ -35,6 +35,7 @@ struct ColumnPlace {
   std::string column;  ///< empty: not said
   std::string unit;
   double zero = 0.0, factor = 1.0;
+  std::string missing{};  ///< a number that stands for none, such as -9999; empty: there is none
   Role as = Role::reading;
   std::string time{};  ///< the column of its own stamps; empty: those of all
   RowFilter where{};
@@ -52,6 +53,7 @@ struct ColumnPlace {
         "unit of its numbers; 1 for a ratio, count for encoder counts, date for times of the day in a .csv");
     visit("zero", self.zero, "1", -1e12, 1e12, "taken from each number, in that unit, first of all");
     visit("factor", self.factor, "1", -1e12, 1e12, "each is multiplied by it then: a gear, a sensor, a sign");
+    visit("missing", self.missing, "a number that stands where nothing was read, such as -9999");
     visit(
         "as", self.as,
         "a reading to be compared with, an input that drives the simulation (a given pressure or length; "

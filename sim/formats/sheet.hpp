@@ -11,6 +11,7 @@ namespace mckibben::formats {
 struct Sheet {
   std::string name, text;
   std::size_t numbers = 0;  ///< cells that hold one
+  bool hidden = false;      ///< its author keeps it from readers
 };
 
 /// The sheets of an .xlsx (ECMA-376). Throws BadFile.

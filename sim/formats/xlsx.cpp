@@ -180,6 +180,7 @@ void read_sheet(const pugi::xml_node& root, const Context& context, Sheet& sheet
 }  // namespace
 
 std::vector<Sheet> sheets_of_xlsx(std::string_view bytes) {
+  constexpr std::string_view visible = "visible";
   const Archive archive(bytes);
   const auto workbook = archive.part("xl/workbook.xml");
   if (!workbook) throw BadFile("this is a zip archive and no .xlsx: unpack it, or save the sheet as CSV");
@@ -199,7 +200,8 @@ std::vector<Sheet> sheets_of_xlsx(std::string_view bytes) {
     if (target.empty()) continue;
     const std::string name = target.starts_with('/') ? target.substr(1) : "xl/" + target;
     const auto part = archive.part(name);
-    Sheet sheet{each.attribute("name").as_string(), "", 0};
+    Sheet sheet{each.attribute("name").as_string(), "", 0,
+                each.attribute("state").as_string("visible") != visible};
     if (part) read_sheet(part->document_element(), context, sheet);
     sheets.push_back(std::move(sheet));
   }

@@ -11,6 +11,7 @@
 #include <sim/input/cells.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/number.hpp>
+#include <sim/input/row_order.hpp>
 #include <sim/input/suggest.hpp>
 
 namespace mckibben::input {
@@ -127,6 +128,17 @@ bool goes_on(const Table& table, const ColumnMap& map) {
          });
 }
 
+bool has_own_clocks(const ColumnMap& map) {
+  return std::ranges::any_of(domain::quantities(), [&](const domain::Quantity& quantity) {
+    const ColumnPlace& place = map[quantity];
+    return !place.absent() && (!place.time.empty() || !place.where.absent());
+  });
+}
+
+bool same_number(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
 std::string list_of(const Table& table, const std::vector<std::size_t>& parts,
                     const TableProblems& problems) {
   std::string text;
@@ -169,23 +181,54 @@ std::vector<std::size_t> parts_of(const Table& table) {
   return parts;
 }
 
-void keep_rows(Table& table, const ColumnMap& map, const Run& run, TableProblems& problems) {
-  if (table.rows() == 0) return;
-  if (!run.where.absent()) {
-    std::vector<std::size_t> rows;
-    const Filter counts(table, of_run, run.where);
-    for (std::size_t row = 0; row < table.rows(); ++row)
-      if (counts(row)) rows.push_back(row);
-    if (rows.empty()) {
-      const auto& [column, text] = *run.where.cells.begin();
-      std::vector<std::string_view> labels;
-      for (const auto& [label, number] : table.find(filter_name(of_run, column))->labels)
-        labels.push_back(label);
-      return problems.add(
-          {}, fmt::format("where: no row has {} in {} (found: {})", text, column, join_few(labels)));
-    }
-    take_rows(table, rows);
+void keep_where(Table& table, const Run& run, TableProblems& problems) {
+  if (table.rows() == 0 || run.where.absent()) return;
+  std::vector<std::size_t> rows;
+  const Filter counts(table, of_run, run.where);
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    if (counts(row)) rows.push_back(row);
+  if (!rows.empty()) return take_rows(table, rows);
+  const auto& [column, text] = *run.where.cells.begin();
+  std::vector<std::string_view> labels;
+  for (const auto& [label, number] : table.find(filter_name(of_run, column))->labels) labels.push_back(label);
+  problems.add({}, fmt::format("where: no row has {} in {} (found: {})", text, column, join_few(labels)));
+}
+
+void drop_missing(Table& table, const ColumnMap& map, plant::CommandUnit commands, TableProblems& problems) {
+  for (Table::Column& column : table.columns) {
+    const domain::Quantity* quantity = named_quantity(column.name, map, commands);
+    const std::string mark = quantity == nullptr ? "" : map[*quantity].missing;
+    if (mark.empty()) continue;
+    if (const auto number = parse_number(mark))
+      std::ranges::replace(column.values, *number, std::nan(""));
+    else
+      problems.add({}, fmt::format("missing = {} of {} is not a number", mark, column.in_file));
   }
+}
+
+void order_rows(Table& table, const ColumnMap& map, TableProblems& problems) {
+  const Table::Column* time = table.find(stamps_name);
+  if (time == nullptr || map["time"].as == domain::Role::interval) return;
+  for (Table::Column& column : table.columns)
+    if (column.kind == CellKind::stamp) run_on(column.values);
+  if (has_own_clocks(map)) return;
+  const RowOrder order = order_of_rows(time->values, [&](std::size_t row) {
+    return std::ranges::all_of(table.columns, [&](const Table::Column& column) {
+      return &column == time || same_number(column.values[row], column.values[row - 1]);
+    });
+  });
+  if (!order.note.empty()) {
+    problems.note(table.lines.empty() ? nowhere : Place{table.lines[order.first], 1}, order.note);
+    take_rows(table, order.rows);
+  }
+  const auto lost = std::ranges::find_if(time->values, [](double stamp) { return std::isnan(stamp); });
+  if (lost != time->values.end())
+    problems.add(table, *time, static_cast<std::size_t>(lost - time->values.begin()),
+                 fmt::format("{} is missing here", time->in_file));
+}
+
+void keep_segment(Table& table, const ColumnMap& map, const Run& run, TableProblems& problems) {
+  if (table.rows() == 0) return;
   const bool intervals = map["time"].as == domain::Role::interval;
   const std::vector<std::size_t> parts =
       run.cut.empty() && (intervals || goes_on(table, map)) ? std::vector<std::size_t>{0} : parts_of(table);
@@ -219,26 +262,51 @@ void keep_rows(Table& table, const ColumnMap& map, const Run& run, TableProblems
 
 namespace {
 
-/// How many of them repeat the one before; they lie evenly then. 0 if the clock is not coarse.
-std::size_t spread(std::vector<double>& stamps) {
-  constexpr std::size_t least_repeats = 5;
-  constexpr double least_share = 0.1;
+/// Stamps that lie evenly but for their rounding, as 0.01, 0.02, 0.04 of 12 ms: they lie evenly then.
+bool even_out(std::vector<double>& stamps) {
+  constexpr double of_a_step = 0.01;      // less does not matter
+  constexpr std::size_t least_rows = 20;  // fewer may lie evenly by chance
+  if (stamps.size() < least_rows) return false;
+  const std::size_t steps = stamps.size() - 1;
+  const double step = (stamps.back() - stamps.front()) / static_cast<double>(steps);
+  const auto even = [&](std::size_t row) { return stamps.front() + step * static_cast<double>(row); };
+  double off = 0.0;
+  for (std::size_t row = 0; row <= steps; ++row) off = std::max(off, std::abs(stamps[row] - even(row)));
+  if (!(off > of_a_step * step) || off > step) return false;
+  double grid = std::pow(10.0, std::ceil(std::log10(step)));
+  const auto on_grid = [&](double stamp) {
+    constexpr double digits = 1e-6;
+    return std::abs(std::remainder(stamp, grid)) <= digits * grid;
+  };
+  for (; grid > off && !std::ranges::all_of(stamps, on_grid); grid /= 10.0) continue;
+  if (grid < off) return false;
+  std::vector<double> spread;
+  for (std::size_t row = 0; row <= steps; ++row) spread.push_back(even(row));
+  stamps = std::move(spread);
+  return true;
+}
+
+struct Spread {
+  std::size_t repeats = 0;  ///< stamps that repeat the one before
+  bool rounded = false;
+};
+
+Spread spread(std::vector<double>& stamps) {
   std::size_t repeats = 0;
   for (std::size_t row = 1; row < stamps.size(); ++row) {
-    if (stamps[row] < stamps[row - 1]) return 0;
+    if (!(stamps[row] >= stamps[row - 1])) return {};
     repeats += stamps[row] == stamps[row - 1] ? 1 : 0;
   }
-  if (repeats < least_repeats ||
-      static_cast<double>(repeats) < least_share * static_cast<double>(stamps.size()) ||
-      stamps.front() == stamps.back())
-    return 0;
+  if (stamps.empty() || stamps.front() == stamps.back()) return {};
+  if (repeats == 0) return {0, even_out(stamps)};
   // Groups of one stamp; those between the first and the last say how far apart rows are.
   std::vector<std::size_t> begins;
   for (std::size_t row = 0; row < stamps.size(); ++row)
     if (row == 0 || stamps[row] != stamps[row - 1]) begins.push_back(row);
   const std::size_t last = begins.back(), groups = begins.size();
+  const bool coarse = repeats > stamps.size() / 10;  // else single stamps repeat
   const double inner =
-      groups > 2 ? (stamps[last] - stamps[begins[1]]) / static_cast<double>(last - begins[1]) : 0.0;
+      coarse && groups > 2 ? (stamps[last] - stamps[begins[1]]) / static_cast<double>(last - begins[1]) : 0.0;
   const std::vector<double> read = stamps;
   for (std::size_t group = 0; group < groups; ++group) {
     const std::size_t row = begins[group], end = group + 1 < groups ? begins[group + 1] : stamps.size();
@@ -252,29 +320,30 @@ std::size_t spread(std::vector<double>& stamps) {
     const double first = group == 0 ? read[row] + whole - step * rows : read[row];
     for (std::size_t k = row; k < end; ++k) stamps[k] = first + step * static_cast<double>(k - row);
   }
-  return repeats;
+  return {repeats, false};
 }
 
 }  // namespace
 
-void spread_stamps(Table& table, const ColumnMap& map, TableProblems& problems) {
+std::string spread_stamps(Table& table, const ColumnMap& map) {
   Table::Column* time = table.find(stamps_name);
-  if (time == nullptr) return;
-  std::size_t repeats = 0;
+  if (time == nullptr) return "";
+  Spread done;
   const auto all = rows_of_quantities(table, map);
-  if (all.empty()) repeats = spread(time->values);
+  if (all.empty()) done = spread(time->values);
   for (const std::vector<std::size_t>& rows : all) {
     std::vector<double> stamps;
     for (const std::size_t row : rows) stamps.push_back(time->values[row]);
-    repeats += spread(stamps);
+    const Spread own = spread(stamps);
+    done = {done.repeats + own.repeats, done.rounded || own.rounded};
     for (std::size_t k = 0; k < rows.size(); ++k) time->values[rows[k]] = stamps[k];
   }
-  if (repeats == 0) return;
-  problems.note(
-      table.lines.empty() ? nowhere : Place{table.lines.front(), 1},
-      fmt::format("{} repeats {} of {} stamps: a coarse clock; rows of one stamp are taken to lie evenly up "
-                  "to the next",
-                  time->in_file, repeats, time->values.size()));
+  if (done.repeats > 0)
+    return fmt::format(
+        "{} repeats {} of {} stamps: a coarse clock; rows of one stamp are taken to lie evenly "
+        "up to the next",
+        time->in_file, done.repeats, time->values.size());
+  return done.rounded ? fmt::format("{} is rounded; rows are taken to lie evenly", time->in_file) : "";
 }
 
 void merge_clocks(Table& table, const ColumnMap& map, plant::CommandUnit commands) {
@@ -285,12 +354,7 @@ void merge_clocks(Table& table, const ColumnMap& map, plant::CommandUnit command
   };
   const Table::Column* common = table.find(stamps_name);
   std::vector<Series> all;
-  bool own = false;
-  for (const domain::Quantity& quantity : domain::quantities()) {
-    const ColumnPlace& place = map[quantity];
-    own = own || (!place.absent() && (!place.time.empty() || !place.where.absent()));
-  }
-  if (!own || common == nullptr) return;
+  if (!has_own_clocks(map) || common == nullptr) return;
   std::vector<double> instants;
   for (Table::Column& column : table.columns) {
     if (column.name == stamps_name || column.kind == CellKind::label) continue;

@@ -2,6 +2,7 @@
 // are no ascending stamps: intervals, stamps that a coarse clock repeats, a clock for each quantity.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
@@ -17,12 +18,21 @@ std::vector<WantedColumn> wanted_besides(const domain::ColumnMap& map, const dom
 /// The first is 0.
 std::vector<std::size_t> parts_of(const Table& table);
 
-/// The rows of `where` and of the segment; intervals added up. In the units of the file.
-void keep_rows(Table& table, const domain::ColumnMap& map, const domain::Run& run, TableProblems& problems);
+/// The rows of `where`, and then of the segment; intervals added up. In the units of the file.
+void keep_where(Table& table, const domain::Run& run, TableProblems& problems);
+void keep_segment(Table& table, const domain::ColumnMap& map, const domain::Run& run,
+                  TableProblems& problems);
 
-/// Stamps that repeat because the clock is coarse lie evenly up to the next; what was done is noted. None of
-/// a clock that repeats single stamps.
-void spread_stamps(Table& table, const domain::ColumnMap& map, TableProblems& problems);
+/// Numbers that stand for none (`missing`) are none.
+void drop_missing(Table& table, const domain::ColumnMap& map, plant::CommandUnit commands,
+                  TableProblems& problems);
+
+/// Rows as the clock of all of them says (row_order.hpp); what was done is noted.
+void order_rows(Table& table, const domain::ColumnMap& map, TableProblems& problems);
+
+/// Stamps that repeat because the clock is coarse lie evenly up to the next; those that are rounded lie
+/// evenly where that is within the rounding. Returns what was done; empty: nothing.
+std::string spread_stamps(Table& table, const domain::ColumnMap& map);
 
 /// Quantities with a clock, or rows, of their own at the stamps of all of them; what is not read at one is
 /// NaN. In seconds. `commands`: in which the rig's valve takes them, as columns are called.

@@ -160,7 +160,6 @@ bool is_number_like(std::string_view text) {
   if (other) text = *other;
   std::string_view bare = text;
   if (bare.front() == '+' || bare.front() == '-') bare.remove_prefix(1);
-  if (bare == "inf" || bare == "Inf" || bare == "INF") return true;
   const bool begins =
       !bare.empty() && (is_number_digit(bare.front()) ||
                         (bare.size() > 1 && is_sign(bare.front()) && is_number_digit(bare[1])));
@@ -219,11 +218,11 @@ std::vector<Cell> split_cells(std::string_view line, char separator) {
 
 bool is_missing(const Cell& cell) {
   if (cell.text.empty()) return true;
-  static constexpr std::array<std::string_view, 29> none{
-      "nan",   "-nan", "nan(ind)",     "-nan(ind)",    "1.#qnan", "-1.#ind", "na",      "n/a",
-      "n.a.",  "#n/a", "#na",          "null",         "none",    "nil",     "missing", "-",
-      "--",    "---",  "\xE2\x80\x93", "\xE2\x80\x94", ".",       "?",       "#div/0!", "#value!",
-      "#num!", "ovld", "ol",           "overload",     "overflow"};
+  static constexpr std::array<std::string_view, 33> none{
+      "nan",          "-nan",         "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "na",    "n/a",  "n.a.",
+      "#n/a",         "#na",          "null",     "none",      "nil",     "missing", "-",     "--",   "---",
+      "\xE2\x80\x93", "\xE2\x80\x94", ".",        "?",         "#div/0!", "#value!", "#num!", "ovld", "ol",
+      "overload",     "overflow",     "inf",      "-inf",      "+inf",    "infinity"};
   if (cell.text.size() > 9) return false;
   if (cell.text.find_first_not_of('*') == std::string_view::npos) return true;
   return is_number_digit(cell.text.back()) ? false : std::ranges::find(none, lower(cell.text)) != none.end();
@@ -250,17 +249,6 @@ bool take_unit(Cell& cell, std::string& unit) {
 
 std::optional<double> EpochReader::read(std::string_view name, const Cell& cell, NumberReader& numbers,
                                         std::string& problem) {
-  constexpr double whole = 4294967296.0, near_end = 0.9;  // of a counter of 32 bits: millis, micros
-  auto value = since_first(name, cell, numbers, problem);
-  if (!value) return value;
-  const double count = *value + static_cast<double>(first_);
-  if (last_ > near_end * whole && last_ < whole && count < (1.0 - near_end) * whole) wrapped_ += whole;
-  last_ = count;
-  return *value + wrapped_;
-}
-
-std::optional<double> EpochReader::since_first(std::string_view name, const Cell& cell, NumberReader& numbers,
-                                               std::string& problem) {
   constexpr std::size_t long_ago = 9;  // digits
   const std::string_view text = cell.text;
   const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());

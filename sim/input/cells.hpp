@@ -62,8 +62,7 @@ class Spelling {
 };
 
 /// Reads the stamps of one table. If the first is so large that it counts since 1970, or since the recorder
-/// was switched on long ago, all are read as those since the first, without losing a digit. A counter of 32
-/// bits that runs over goes on.
+/// was switched on long ago, all are read as those since the first, without losing a digit.
 class EpochReader {
  public:
   std::optional<double> read(std::string_view name, const Cell& cell, NumberReader& numbers,
@@ -72,11 +71,7 @@ class EpochReader {
   const std::optional<std::string>& taken_off() const { return first_text_; }
 
  private:
-  std::optional<double> since_first(std::string_view name, const Cell& cell, NumberReader& numbers,
-                                    std::string& problem);
-
   bool began_ = false;
-  double last_ = 0.0, wrapped_ = 0.0;
   std::int64_t first_ = 0;
   std::optional<std::string> first_text_;
 };

@@ -101,9 +101,13 @@ std::optional<double> ClockReader::read(std::string_view name, const Cell& cell,
   if (!stamp) return std::nullopt;
   if (!first_) first_ = stamp;
   if (stamp->date.empty() && first_->date.empty()) {  // a time of the day that falls is of the next one
-    if (stamp->second < last_ - 0.5 * day_s) midnights_ += 1.0;
+    constexpr double half_day_s = 0.5 * day_s, goes_on_s = 60.0;
+    if (stamp->second < last_ - half_day_s)
+      passed_s_ += day_s;
+    else if (const double late_s = stamp->second + half_day_s - last_; late_s >= 0.0 && late_s < goes_on_s)
+      passed_s_ += half_day_s;  // a clock of 12 hours that does not say which half of the day it is
     last_ = stamp->second;
-    return midnights_ * day_s + stamp->second - first_->second;
+    return passed_s_ + stamp->second - first_->second;
   }
   if (stamp->date == first_->date) return stamp->second - first_->second;
   if (!stamp->day || !first_->day) {
@@ -112,6 +116,12 @@ std::optional<double> ClockReader::read(std::string_view name, const Cell& cell,
     return std::nullopt;
   }
   return static_cast<double>(*stamp->day - *first_->day) * day_s + stamp->second - first_->second;
+}
+
+bool is_day(std::string_view text) {
+  const std::string whole(text);
+  const auto date = date_at(whole.c_str());
+  return date && date->length == static_cast<std::ptrdiff_t>(whole.size());
 }
 
 }  // namespace mckibben::input

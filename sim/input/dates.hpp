@@ -29,7 +29,10 @@ class ClockReader {
   static std::optional<Stamp> stamp_of(std::string_view text);
 
   std::optional<Stamp> first_;
-  double last_ = 0.0, midnights_ = 0.0;  ///< of stamps without a date
+  double last_ = 0.0, passed_s_ = 0.0;  ///< of stamps without a date
 };
+
+/// 2024-05-03, 03.05.2024, ... and nothing behind it.
+bool is_day(std::string_view text);
 
 }  // namespace mckibben::input

@@ -31,13 +31,6 @@ class LvmReader {
       : source_(source), wanted_(wanted), segment_(segment), problems_(problems) {}
 
   Table read() {
-    if (!begins_a_file()) {
-      problems_.add({1, 1},
-                    fmt::format("the first line must be {}; a file without header is read as .txt, with "
-                                "columns by number",
-                                file_mark));
-      return {};
-    }
     while (problems_.count() == 0 && skip_blank()) {
       if (begins_a_file())
         file_header();

@@ -115,14 +115,17 @@ bool has_sheets(std::string_view bytes) {
   return is_xlsx(bytes) || is_tdms(bytes) || bytes.starts_with("\xD0\xCF\x11\xE0");  // the last: .xls
 }
 
-/// Those that hold numbers.
-std::vector<formats::Sheet> sheets_of(const std::filesystem::path& path, std::string_view bytes) {
+/// Those that hold numbers; hidden ones only if they are asked for by name.
+std::vector<formats::Sheet> sheets_of(const std::filesystem::path& path, std::string_view bytes,
+                                      const std::string& wanted = "") {
   try {
     auto sheets = is_xlsx(bytes)   ? formats::sheets_of_xlsx(bytes)
                   : is_tdms(bytes) ? formats::sheets_of_tdms(bytes)
                                    : formats::sheets_of_xls(path.string());
     constexpr std::size_t few = 4;
-    std::erase_if(sheets, [](const formats::Sheet& sheet) { return sheet.numbers < few; });
+    std::erase_if(sheets, [&](const formats::Sheet& sheet) {
+      return sheet.numbers < few || (sheet.hidden && sheet.name != wanted);
+    });
     if (sheets.empty()) refuse(path, "no sheet of it holds a table of numbers");
     return sheets;
   } catch (const formats::BadFile& bad) {
@@ -132,7 +135,7 @@ std::vector<formats::Sheet> sheets_of(const std::filesystem::path& path, std::st
 
 std::string text_of_sheet(const std::filesystem::path& path, std::string_view bytes,
                           const std::string& wanted) {
-  auto sheets = sheets_of(path, bytes);
+  auto sheets = sheets_of(path, bytes, wanted);
   std::vector<std::string_view> names;
   for (const formats::Sheet& sheet : sheets) names.push_back(sheet.name);
   if (wanted.empty() && sheets.size() > 1)

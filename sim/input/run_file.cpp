@@ -37,15 +37,13 @@ std::vector<WantedColumn> wanted_of(const ColumnMap& map, const Dataset& dataset
     else
       wanted.push_back({quantity.column, place.column, true, may_miss, kind, !place.time.empty()});
   };
-  const bool single_clocks =
-      std::ranges::any_of(map.places, [](const ColumnPlace& place) { return !place.time.empty(); });
   const domain::Quantity& time = domain::quantity_of("time");
   if (map.rows_are_ticks && format != Format::lvm)
     wanted.push_back({time.column, time.column, false});
   else if (format == Format::lvm && map["time"].absent() && map.settled.absent() && !map.rows_are_ticks)
     wanted.push_back({time.column, "", true});
   else if (map.settled.absent() && !map.rows_are_ticks)
-    add(time, true, single_clocks);
+    add(time, true, dataset.own_clock);
   const plant::CommandUnit commands = dataset.rig.command_unit();
   if (dataset.own_clock) {
     for (const Wish& wish : stamped_quantities(map, dataset.rig))
@@ -97,9 +95,14 @@ void read_table_of(const Source& source, const ColumnMap& map, const Dataset& da
   Table table = read_as(format, source, wanted_of(map, dataset, run, format), run, found);
   Run chosen = run;  // an .lvm has found its segment
   if (format == Format::lvm && run.cut.empty()) chosen.segment = 0;
-  if (found.count() == 0) keep_rows(table, map, chosen, found);
+  if (found.count() == 0) drop_missing(table, map, dataset.rig.command_unit(), found);
+  if (found.count() == 0) keep_where(table, run, found);
+  if (found.count() == 0 && dataset.own_clock) order_rows(table, map, found);
+  if (found.count() == 0) keep_segment(table, map, chosen, found);
   if (found.count() > 0 && table.columns.empty()) return;
-  if (dataset.own_clock && found.count() == 0) spread_stamps(table, map, found);
+  if (dataset.own_clock && found.count() == 0)
+    if (const std::string done = spread_stamps(table, map); !done.empty())
+      found.note(table.lines.empty() ? nowhere : Place{table.lines.front(), 1}, done);
   const std::string command = plant::Channel{&plant::command_of(dataset.rig.command_unit())}.name();
   Table::Column *current = table.find(command), *contraction = table.find("contraction_ratio");
   if (!dataset.own_clock && (current == nullptr || contraction == nullptr)) return;

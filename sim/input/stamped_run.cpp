@@ -44,7 +44,7 @@ bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
   return std::ranges::any_of(domain::quantities(), [&](const Quantity& quantity) {
     const ColumnPlace& place = map[quantity];
     constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
-    if (!place.time.empty() || !place.where.absent()) return true;
+    if (!place.time.empty() || !place.where.absent() || !place.missing.empty()) return true;
     return !place.absent() && (place.as != Role::reading ||
                                std::find(ticked.begin(), ticked.end(), quantity.key) == ticked.end());
   });
@@ -114,11 +114,9 @@ class Assembling {
     for (std::size_t k = 1; k < measured_.time_s.size(); ++k) {
       const double now_s = measured_.time_s[k], before_s = measured_.time_s[k - 1];
       if (now_s > before_s || std::isnan(now_s) || std::isnan(before_s)) continue;
-      problems_.add(table_, *column, k,
-                    fmt::format("time_s = {} {}: stamps must ascend{}", domain::write_number(now_s),
-                                now_s == before_s ? "is repeated" : "runs backwards",
-                                now_s == before_s ? "; take out the row that is there twice"
-                                                  : "; are the newest rows first? Then sort them by time"));
+      problems_.add(
+          table_, *column, k,
+          fmt::format("time_s = {} runs backwards: stamps must ascend", domain::write_number(now_s)));
       return;  // all later rows would repeat it
     }
   }

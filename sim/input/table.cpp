@@ -155,7 +155,7 @@ Format format_of(const std::string& file, std::string_view text) {
   std::string ending = std::filesystem::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".lvm" || text.starts_with("LabVIEW Measurement")) return Format::lvm;
+  if (text.starts_with("LabVIEW Measurement")) return Format::lvm;  // .lvm without a header is a text
   return ending == ".mat" || text.starts_with("MATLAB 5.0 MAT-file") ? Format::mat : Format::text;
 }
 

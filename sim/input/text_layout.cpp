@@ -67,11 +67,12 @@ std::vector<Cell> heading_cells(std::string_view line, char separator, std::size
 struct Head {
   std::size_t line;
   std::vector<Cell> cells;
-  bool names_all = false;  ///< a different word for each column
-  bool fits = false;       ///< as many as there are columns
-  bool clock = false;      ///< one of them names the time
-  bool units = false;      ///< nothing but units
-  std::size_t wanted = 0;  ///< names that are looked for
+  bool names_all = false;   ///< a different word for each column
+  bool fits = false;        ///< as many as there are columns
+  bool clock = false;       ///< one of them names the time
+  bool says_units = false;  ///< one of them has a unit in brackets
+  bool units = false;       ///< nothing but units
+  std::size_t wanted = 0;   ///< names that are looked for
 };
 
 class Heads {
@@ -92,7 +93,7 @@ class Heads {
 
   const std::vector<Head>& list() const { return list_; }
   /// The heading among them: what is looked for, then the first that names each column, with time among them,
-  /// then the last of words.
+  /// with units in brackets, then the last of words.
   const Head* heading() const {
     const Head* best = nullptr;
     for (const Head& head : list_)
@@ -102,7 +103,8 @@ class Heads {
 
  private:
   static std::size_t rank(const Head& head) {
-    return 8 * head.wanted + (head.names_all ? 4 : 0) + (head.clock ? 2 : 0) + (head.fits ? 1 : 0);
+    return 16 * head.wanted + (head.names_all ? 8 : 0) + (head.clock ? 4 : 0) + (head.says_units ? 2 : 0) +
+           (head.fits ? 1 : 0);
   }
 
   bool take(std::size_t line) {
@@ -128,6 +130,10 @@ class Heads {
     }
     head.fits = size == block_.width;
     head.clock = std::ranges::any_of(names, names_time);
+    head.says_units = std::ranges::any_of(names, [](std::string_view name) {
+      const std::size_t open = name.find_last_of("[(");
+      return open != std::string_view::npos && open > 0 && !unit_word(name.substr(open)).empty();
+    });
     std::ranges::sort(names);
     head.names_all = names.size() == block_.width && !names.front().empty() &&
                      std::ranges::adjacent_find(names) == names.end();

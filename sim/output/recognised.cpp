@@ -31,13 +31,14 @@ std::string as_comment(std::string text) {
 
 std::string reasons_of(const ColumnGuess& guess) {
   std::string text = guess.column.reason + "; " + guess.unit.reason;
-  for (const auto* told : {&guess.zero, &guess.factor, &guess.input, &guess.time})
+  for (const auto* told : {&guess.zero, &guess.factor, &guess.missing, &guess.input, &guess.time})
     if (*told)
       text += "; " +
-              std::string(told == &guess.zero     ? "zero: "
-                          : told == &guess.factor ? "factor: "
-                          : told == &guess.time   ? "time: "
-                                                  : "") +
+              std::string(told == &guess.zero      ? "zero: "
+                          : told == &guess.factor  ? "factor: "
+                          : told == &guess.time    ? "time: "
+                          : told == &guess.missing ? "missing: "
+                                                   : "") +
               (*told)->reason;
   return text;
 }
@@ -50,6 +51,7 @@ std::string place_of(const ColumnGuess& guess) {
   if (!guess.where.empty()) text += ", where: " + guess.where;
   if (guess.zero) text += ", zero: " + guess.zero->value;
   if (guess.factor) text += ", factor: " + guess.factor->value;
+  if (guess.missing) text += ", missing: " + guess.missing->value;
   if (guess.input) text += ", as: " + guess.input->value;
   if (guess.time) text += ", time: " + domain::yaml_scalar(guess.time->value);
   return text + "}";
@@ -172,6 +174,7 @@ input::Json map_json(const MapGuess& map) {
     column = {{"column", told_json(guess.column)}, {"unit", told_json(guess.unit)}};
     if (guess.zero) column["zero"] = told_json(*guess.zero);
     if (guess.factor) column["factor"] = told_json(*guess.factor);
+    if (guess.missing) column["missing"] = told_json(*guess.missing);
     if (guess.input) column["as"] = told_json(*guess.input);
     if (guess.time) column["time"] = told_json(*guess.time);
     if (!guess.where.empty()) column["where"] = guess.where;

@@ -220,7 +220,7 @@ TimeGuess time_of(const UnknownTable& table) {
   return found;
 }
 
-Values seconds_of(const UnknownTable& table, const ColumnGuess& time) {
+Values seconds_of(const UnknownTable& table, const ColumnGuess& time, std::string* done) {
   const Values* stamps = time.unit.open() ? nullptr : column_of(table, time.column.value);
   if (stamps == nullptr || stamps->empty() || (time.factor && time.factor->open())) return {};
   input::Table one;
@@ -230,10 +230,8 @@ Values seconds_of(const UnknownTable& table, const ColumnGuess& time) {
     for (std::size_t k = 1; k < stamps->size(); ++k) one.columns[0].values[k] = sum += (*stamps)[k];
     one.columns[0].values.front() = 0.0;
   }
-  const input::Source source("", "", "");
-  input::Problems ignored;
-  input::TableProblems said(source, ignored);
-  input::spread_stamps(one, {}, said);
+  const std::string spread = input::spread_stamps(one, {});
+  if (done != nullptr) *done = spread;
   Values seconds = std::move(one.columns[0].values);
   if (time.factor)
     for (double& value : seconds) value *= input::parse_number(time.factor->value).value_or(1.0);

@@ -314,6 +314,12 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_know
           {each.column->name, fmt::format("{}; {}", each.heading.reason, range_in_words(each))});
   for (ColumnGuess& guess : map.columns)
     if (guess.quantity->key != "time") say_rows(table, guess);
+  for (ColumnGuess& guess : map.columns)
+    for (const UnknownTable* each : tables)
+      if (const UnknownColumn* column = each->find(guess.column.value);
+          column != nullptr && !column->missing.empty())
+        guess.missing =
+            Told{column->missing, "it comes again, far beyond all others: nothing was read there"};
   for (const ColumnGuess& guess : map.columns)
     if (const UnknownColumn* column = table.find(guess.column.value);
         column != nullptr && !column->odd.empty())

@@ -42,8 +42,8 @@ struct TimeGuess {
 bool counts_rows(const Values& values);
 TimeGuess time_of(const UnknownTable& table);
 
-/// Its stamps in seconds; empty where they are not known.
-Values seconds_of(const UnknownTable& table, const ColumnGuess& time);
+/// Its stamps in seconds; empty where they are not known. `done`: what was done to them (spread_stamps).
+Values seconds_of(const UnknownTable& table, const ColumnGuess& time, std::string* done = nullptr);
 
 /// The parts of a table that are runs of their own: by a column that says which, by a clock that begins
 /// again.
@@ -51,7 +51,8 @@ std::vector<UnknownTable> runs_in(const UnknownTable& table);
 
 struct Clock {
   double begin_s = 0.0, step_s = 0.0;  ///< the step in the middle of all
-  double jitter_s = 0.0;               ///< the furthest from even stamps
+  double shortest_s = 0.0, longest_s = 0.0;
+  double jitter_s = 0.0;  ///< the furthest from even stamps
   bool ascends = true;
 };
 Clock clock_of(const Values& time_s);

@@ -33,6 +33,9 @@ Clock clock_of(const Values& time_s) {
   for (std::size_t k = 1; k < time_s.size(); ++k) steps.push_back(time_s[k] - time_s[k - 1]);
   clock.begin_s = time_s.front();
   clock.ascends = std::all_of(steps.begin(), steps.end(), [](double step) { return step > 0.0; });
+  const auto [shortest, longest] = std::ranges::minmax(steps);
+  clock.shortest_s = shortest;
+  clock.longest_s = longest;
   // The middle of all steps is not spoilt by a gap; the mean of the even ones has more digits.
   const double middle = data::upper_median(steps);
   double sum = 0.0, number = 0.0;

@@ -115,20 +115,10 @@ class Recogniser {
   }
 
   /// Stamps of a run in seconds; empty where they are not known.
-  Values time_s(std::size_t run) const {
+  Values time_s(std::size_t run, std::string* done = nullptr) const {
     const ColumnGuess* time = map_of_run(run).find("time");
     if (time == nullptr || time->unit.open()) return {};
-    return seconds_of(all_.tables[run], *time);
-  }
-
-  std::size_t repeats_of(std::size_t run) const {
-    const ColumnGuess* time = map_of_run(run).find("time");
-    const Values* stamps =
-        time == nullptr || time->input ? nullptr : column_of(all_.tables[run], time->column.value);
-    std::size_t repeats = 0;
-    for (std::size_t k = 1; stamps != nullptr && k < stamps->size(); ++k)
-      repeats += (*stamps)[k] == (*stamps)[k - 1] ? 1 : 0;
-    return repeats;
+    return seconds_of(all_.tables[run], *time, done);
   }
 
   /// Whether a row lacks what is read; a row each tick lacks nothing.
@@ -150,28 +140,24 @@ class Recogniser {
 
   void clocks() {
     bool even = true;
-    double jitter_s = 0.0, first_s = 0.0;
+    double first_s = 0.0;
+    Range steps_s{1e300, -1e300};
     for (std::size_t i = 0; i < all_.runs.size(); ++i) {
-      const Values seconds = time_s(i);
+      std::string done;
+      const Values seconds = time_s(i, &done);
       if (seconds.size() < 2) continue;
       const Clock clock = clock_of(seconds);
       if (step_s_ == 0.0) step_s_ = clock.step_s;
       if (const auto fall = std::ranges::adjacent_find(seconds, std::greater<>()); fall != seconds.end())
-        remark(i, clock.step_s < 0.0
-                      ? "its stamps fall from row to row: the newest rows are first; sort them by time"
-                      : fmt::format(
-                            "its stamps fall back at row {}, by {:.4g} s: take that row out, or sort them",
-                            fall - seconds.begin() + 2, *fall - *(fall + 1)));
-      if (const std::size_t repeats = repeats_of(i); repeats > 0) {
-        even = false;  // they are spread, which only stamps are
-        remark(i, fmt::format("{} of {} stamps repeat the one before; where the clock is coarse, rows of one "
-                              "stamp are taken to lie evenly up to the next",
-                              repeats, seconds.size()));
-      }
+        remark(i, fmt::format("its stamps fall back at row {}, by {:.4g} s: sort its rows, or take out those "
+                              "that are wrong",
+                              fall - seconds.begin() + 2, *fall - *(fall + 1)));
+      if (!done.empty()) remark(i, done);
+      even = even && done.empty() && !all_.tables[i].reordered;  // only stamps can be mended
       const double allowed_s = even_s + even_ratio * (seconds.back() - clock.begin_s);
       even = even && clock.begin_s == 0.0 && clock.jitter_s <= allowed_s &&
              std::abs(clock.step_s - step_s_) <= even_ratio * step_s_;
-      jitter_s = std::max(jitter_s, clock.jitter_s);
+      steps_s = {std::min(steps_s.low, clock.shortest_s), std::max(steps_s.high, clock.longest_s)};
       first_s = clock.begin_s != 0.0 ? clock.begin_s : first_s;
     }
     const bool ticks =
@@ -179,7 +165,8 @@ class Recogniser {
     even_ = even && ticks && step_s_ >= shortest_tick_s && step_s_ <= longest_tick_s;
     if (step_s_ == 0.0) return;
     clock_ = fmt::format("stamps {:.6g} ms apart", 1e3 * step_s_);
-    if (jitter_s > even_s) clock_ = fmt::format("{}, uneven by up to {:.3g} ms", clock_, 1e3 * jitter_s);
+    if (steps_s.high - steps_s.low > even_s + even_ratio * step_s_)
+      clock_ += fmt::format(" ({:.4g} to {:.4g} ms)", 1e3 * steps_s.low, 1e3 * steps_s.high);
     if (first_s != 0.0) clock_ += fmt::format(", begin at {:.6g} s and not at 0", first_s);
     if (even_) clock_ = fmt::format("all stamps are {:.6g} ms apart", 1e3 * step_s_);
   }

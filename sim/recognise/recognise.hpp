@@ -29,6 +29,7 @@ struct ColumnGuess {
   std::optional<Told> zero, factor;  ///< none: 0 and 1
   std::optional<Told> input;         ///< what it is read as: it drives the simulation; of time: interval
   std::optional<Told> time;          ///< the column of its own clock
+  std::optional<Told> missing{};     ///< a number that stands for none
   std::string in_file{}, where{};    ///< in a long table: the column of all readings, and which rows are its
 };
 

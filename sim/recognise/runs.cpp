@@ -14,7 +14,9 @@
 #include <sim/domain/number.hpp>
 #include <sim/input/arranged.hpp>
 #include <sim/input/cells.hpp>
+#include <sim/input/dates.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/row_order.hpp>
 #include <sim/recognise/columns.hpp>
 #include <sim/recognise/headings.hpp>
 
@@ -221,6 +223,19 @@ UnknownTable turned(const UnknownTable& table, const Long& by) {
   return wide;
 }
 
+/// Days beside a clock that goes on over midnight.
+bool goes_on_over(const UnknownColumn& days, const UnknownTable& table) {
+  const TimeGuess time = time_of(table);
+  const Values time_s = time.guess ? seconds_of(table, *time.guess) : Values{};
+  if (time_s.empty() || !std::ranges::all_of(days.texts, input::is_day)) return false;
+  double within = 0.0, over = 0.0;  // the longest steps
+  for (std::size_t row = 1; row < time_s.size(); ++row) {
+    double& longest = days.values[row] == days.values[row - 1] ? within : over;
+    longest = std::max(longest, std::abs(time_s[row] - time_s[row - 1]));
+  }
+  return over <= within;
+}
+
 /// By columns that say to which run, or under which load, a row belongs.
 std::vector<UnknownTable> cut_by_labels(const UnknownTable& table, const std::optional<Long>& is_long) {
   std::vector<Labels> marks, constant;
@@ -237,7 +252,8 @@ std::vector<UnknownTable> cut_by_labels(const UnknownTable& table, const std::op
         return runs;
       }
       const bool key = is_long && (&column == is_long->key || &column == is_long->unit);
-      const bool block = !column.texts.empty() && labels.are_blocks() && !names_a_phase(column.name) && !key;
+      const bool block = !column.texts.empty() && labels.are_blocks() && !names_a_phase(column.name) &&
+                         !key && !goes_on_over(column, table);
       if (load && labels.count == 1) constant.push_back(labels);
       if (labels.are_few() && (run || load || block)) marks.push_back(labels);
     }
@@ -320,12 +336,38 @@ std::vector<UnknownTable> cut_by_lines(UnknownTable table) {
   return parts;
 }
 
+/// Rows as the clock of all of them says.
+void put_in_order(UnknownTable& table) {
+  const TimeGuess time = time_of(table);
+  if (!time.guess || time.guess->input) return;
+  for (UnknownColumn& column : table.columns)
+    if (column.name == time.guess->column.value || std::ranges::count(time.clocks, &column) > 0)
+      table.reordered = input::run_on(column.values) || table.reordered;
+  const UnknownColumn* stamps = table.find(time.guess->column.value);
+  if (stamps == nullptr || !time.clocks.empty()) return;
+  const auto same = [&](std::size_t row) {
+    const auto repeats = [&](const UnknownColumn& column) {
+      const double now = column.values[row], before = column.values[row - 1];
+      return &column == stamps || now == before || (std::isnan(now) && std::isnan(before));
+    };
+    return std::ranges::all_of(table.columns, repeats) && std::ranges::all_of(table.texts, repeats);
+  };
+  const input::RowOrder order = input::order_of_rows(stamps->values, same);
+  if (order.note.empty()) return;
+  UnknownTable some = table.rows(order.rows);
+  some.reordered = true;
+  const std::string at = order.first > 0 ? fmt::format(" (the first: row {})", order.first + 1) : "";
+  some.note += fmt::format("{}{}{}", some.note.empty() ? "" : "; ", order.note, at);
+  table = std::move(some);
+}
+
 }  // namespace
 
 std::vector<UnknownTable> runs_in(const UnknownTable& table) {
   std::vector<UnknownTable> runs;
   for (UnknownTable& labelled : cut_by_labels(table, long_table(table))) {
     const std::optional<Long> is_long = long_table(labelled);
+    if (!is_long) put_in_order(labelled);
     const TimeGuess time = time_of(labelled);
     const UnknownColumn* stamps =
         time.guess && !time.guess->input ? labelled.find(time.guess->column.value) : nullptr;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <sim/domain/columns.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/formats/mat_file.hpp>
 #include <sim/input/column_hints.hpp>
 #include <sim/input/dates.hpp>
@@ -17,6 +18,7 @@
 #include <sim/input/readers.hpp>
 #include <sim/input/spelling.hpp>
 #include <sim/input/text_layout.hpp>
+#include <sim/recognise/columns.hpp>
 #include <sim/recognise/headings.hpp>
 #include <sim/recognise/settings.hpp>
 #include <sim/recognise/unknown_table.hpp>
@@ -92,7 +94,27 @@ struct Growing {
                                column.values.size(), first_word, first_line);
     if (column.unit.empty()) column.unit = cell_unit;
     column.texts.clear();
+    leave_out_marks();
     return true;
+  }
+  /// -9999 and the like: whole numbers that come again, far beyond all others.
+  void leave_out_marks() {
+    constexpr double far = 10.0;
+    for (const bool low : {true, false}) {
+      const Range all = range_of(column.values);
+      const double mark = low ? all.low : all.high;
+      Values others = column.values;
+      std::ranges::replace(others, mark, std::nan(""));
+      const Range rest = range_of(others);
+      const double gap = low ? rest.low - mark : mark - rest.high;
+      if (mark != std::floor(mark) || std::ranges::count(column.values, mark) < 2 || rest.high == rest.low ||
+          gap < far * (rest.high - rest.low) ||
+          std::abs(mark) < far * std::max(std::abs(rest.low), std::abs(rest.high)))
+        continue;
+      column.missing = domain::write_number(mark);
+      column.values = std::move(others);
+      return;
+    }
   }
 };
 
@@ -302,9 +324,9 @@ const UnknownColumn* UnknownTable::find(const std::string& name) const {
 
 UnknownTable UnknownTable::rows(const std::vector<std::size_t>& which, const std::string& says) const {
   UnknownTable some = *this;
-  some.part.push_back(says);
+  if (!says.empty()) some.part.push_back(says);
   some.between.clear();
-  for (const Between& each : between)
+  for (const Between& each : std::ranges::is_sorted(which) ? between : std::vector<Between>{})
     if (const auto row = std::ranges::lower_bound(which, each.row); row != which.end())
       some.between.push_back({static_cast<std::size_t>(row - which.begin()), each.line, each.text});
   for (auto* list : {&some.columns, &some.texts})

@@ -21,8 +21,9 @@ struct UnknownColumn {
   std::string label{};               ///< how the file calls it besides; empty: only by its name
   std::vector<std::string> texts{};  ///< of a column of words: its values are their places in this list
   std::string in_file{}, where{};    ///< of a quantity in a long table: its column, and which rows are its
-  std::string odd{};     ///< cells of a column of numbers that hold none; empty: there are no such
-  std::string either{};  ///< a number of it whose sign may stand before decimals or between thousands
+  std::string odd{};      ///< cells of a column of numbers that hold none; empty: there are no such
+  std::string missing{};  ///< a number of it that stands for none; its values are none; empty: there is none
+  std::string either{};   ///< a number of it whose sign may stand before decimals or between thousands
 
   const std::string& heading() const { return label.empty() ? name : label; }
 };
@@ -57,13 +58,14 @@ struct UnknownTable {
   std::vector<std::string> words;      ///< columns that hold neither
   bool time_is_inside = false;         ///< an .lvm, which needs no column of time
   bool has_headings = true;
+  bool reordered = false;           ///< rows are left out, or in another order than in the file
   std::vector<std::string> part{};  ///< which of the file it is, as a run says it: `segment: 2`
   std::optional<LoadGuess> load{};  ///< that a column of it says
 
   const UnknownColumn* find(const std::string& name) const;
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
   /// Only these rows of it.
-  UnknownTable rows(const std::vector<std::size_t>& which, const std::string& says) const;
+  UnknownTable rows(const std::vector<std::size_t>& which, const std::string& says = "") const;
 };
 
 /// One, or one for each sheet. Throws MissingInput; BadInput for a file without a table, or one that can be

@@ -190,8 +190,90 @@ TEST_F(Arranged, StampsOfACoarseClockLieEvenly) {
   EXPECT_NEAR(times(data)[19], 0.0095, 1e-12);
   ASSERT_EQ(data.remarks.size(), 1u);
   EXPECT_TRUE(holds(data.remarks[0], "repeats 10 of 20 stamps"));
-  EXPECT_TRUE(holds(refused("t,p,x\n0,1,0\n10,2,1\n10,3,1\n20,3,1\n", in_ms), "is repeated"))
-      << "one row twice";
+  std::string one = "t,p,x\n";
+  for (int k = 0; k < 20; ++k) one += fmt::format("{},{},0\n", 10 * (k < 9 ? k : k - 1), k);
+  EXPECT_NEAR(times(read(one, in_ms, x_mm))[9], 0.085, 1e-12) << "a single stamp that repeats";
+  EXPECT_DOUBLE_EQ(times(read(one, in_ms, x_mm))[0], 0.0);
+}
+
+TEST_F(Arranged, RoundedStampsLieEvenly) {
+  std::string table = "t,p,x\n", uneven = table;
+  for (int k = 0; k < 100; ++k) {
+    table += fmt::format("{:.2f},1,0\n", 0.012 * k);
+    uneven += fmt::format("{:.4f},1,0\n", 0.012 * k + (k % 7 == 3 ? 0.004 : 0.0));
+  }
+  const Dataset data = read(table, "column: t, unit: s", x_mm);
+  for (std::size_t k = 0; k < 100; ++k) EXPECT_NEAR(times(data)[k], 0.012 * static_cast<double>(k), 0.003);
+  EXPECT_NEAR(times(data)[51] - times(data)[50], 0.012, 1e-4);
+  ASSERT_EQ(data.remarks.size(), 1u);
+  EXPECT_TRUE(holds(data.remarks[0], "t is rounded"));
+  const Dataset jitter = read(uneven, "column: t, unit: s", x_mm);
+  EXPECT_NEAR(times(jitter)[3], 0.040, 1e-9) << "stamps that tell more than their grid stay";
+}
+
+TEST_F(Arranged, RowsComeInTheOrderOfTheirClock) {
+  const auto made = [](auto&& row) {
+    std::string table = "t,p,x\n";
+    for (int k = 0; k < 60; ++k) table += row(k);
+    return table;
+  };
+  const auto plain = [](int k) { return fmt::format("{},{},{}\n", 10 * k, k, k % 9); };
+  const Dataset newest_first = read(made([&](int k) { return plain(59 - k); }), in_ms, x_mm);
+  EXPECT_EQ(times(newest_first), times(read(made(plain), in_ms, x_mm)));
+  EXPECT_DOUBLE_EQ(pressures(newest_first)[0], 0.0);
+  ASSERT_EQ(newest_first.remarks.size(), 1u);
+  EXPECT_TRUE(holds(newest_first.remarks[0], "newest rows stand first"));
+  for (const auto& [table, what] : std::vector<std::pair<std::string, std::string>>{
+           {
+               made([&](int k) { return plain(k) + (k == 20 ? plain(k) : ""); }),
+               "r.csv:23:1",
+           },
+           {made(plain) + "30,2,3\n", "r.csv:62:1"},
+           {made([&](int k) { return plain(k) + (k == 30 ? "9999,1,1\n" : ""); }), "r.csv:33:1"},
+           {made([&](int k) { return plain(k) + (k == 30 ? ",1,1\n" : ""); }), "r.csv:33:1"}}) {
+    const Dataset data = read(table, in_ms, x_mm);
+    EXPECT_EQ(times(data), times(newest_first)) << what;
+    ASSERT_EQ(data.remarks.size(), 1u);
+    EXPECT_TRUE(holds(data.remarks[0], what)) << data.remarks[0];
+  }
+  EXPECT_TRUE(
+      holds(refused(made([&](int k) { return k % 3 == 0 ? fmt::format(",{},1\n", k) : plain(k); }), in_ms),
+            "r.csv:2:1", "t is missing here"))
+      << "a row in three is another kind of table";
+}
+
+TEST_F(Arranged, CountersThatRunOverGoOn) {
+  const auto steps = [&](const std::string& unit, auto&& stamp) {
+    std::string table = "t,p,x\n";
+    for (int k = 0; k < 200; ++k) table += fmt::format("{},{},{}\n", stamp(k), k % 50, k % 9);
+    const Dataset data = read(table, "column: t, unit: " + unit, x_mm);
+    std::vector<double> times_s = times(data);
+    return times_s.size() == 200 ? times_s.back() - times_s.front() : 0.0;
+  };
+  EXPECT_NEAR(steps("ms", [](int k) { return (64000 + 12 * k) % 65536; }), 2.388, 1e-9);
+  EXPECT_NEAR(steps("ms", [](int k) { return 12 * k % 1000; }), 2.388, 1e-9);
+  EXPECT_NEAR(steps("us", [](int k) { return (4294900000LL + 12000LL * k) % 4294967296LL; }), 2.388, 1e-9);
+  EXPECT_NEAR(steps("date",
+                    [](int k) {
+                      const int ms = 59000 + 12 * k;  // from 12:59 to 1:00
+                      return fmt::format("{}:{:02}:{:02}.{:03}", ms < 60000 ? 12 : 1, ms < 60000 ? 59 : 0,
+                                         ms / 1000 % 60, ms % 1000);
+                    }),
+              2.388, 1e-6);
+  std::string runs = "t,p,x\n";  // two of a second each, from 0
+  for (int k = 0; k < 200; ++k) runs += fmt::format("{},{},{}\n", 10 * (k % 100), k % 50, k % 9);
+  EXPECT_TRUE(holds(refused(runs, in_ms), "holds 2 runs"));
+}
+
+TEST_F(Arranged, ANumberMayStandForNone) {
+  const std::string table = "t,p,x\n0,1,0\n10,2,-9999\n20,3,2\n";
+  const Dataset data = read(table, in_ms, "column: x, unit: mm, missing: -9999");
+  EXPECT_TRUE(std::isnan(data.runs[0].measured->read("contraction")[1]));
+  std::string many = "t,p,x\n";
+  for (int k = 0; k < 50; ++k) many += fmt::format("{},1,{}\n", 10 * k, k % 5 == 2 ? -9999 : k % 9);
+  EXPECT_TRUE(holds(refused(many, in_ms), "write missing:"));
+  EXPECT_TRUE(holds(refused(table, in_ms, "", "", "column: x, unit: mm, missing: none"),
+                    "missing = none of x is not a number"));
 }
 
 TEST_F(Arranged, TheFirstAndTheLastStampMayHaveAPartOfTheirRows) {

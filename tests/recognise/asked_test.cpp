@@ -1,4 +1,5 @@
 // What can be read in two ways is asked, and never misread in silence.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -215,6 +216,62 @@ TEST_F(Asked, ZerosBeforeNumbersAndStampsThatNobodyReads) {
     worded += fmt::format("May{:03}th,{:.3f},{:.2f}\n", k, 5 * drive(k), 10 * drive(k));
   EXPECT_TRUE(holds(column(recognise({folder_.write("5kg.csv", worded)}, true), "time").column.reason,
                     "read as no number", "May000th"));
+}
+
+TEST_F(Asked, RowsInTheOrderOfTheirClockNeedAStart) {
+  const auto plain = [](int k) {
+    return fmt::format("{:.3f},{:.2f},{:.3f},{:.3f}", 0.012 * k, 4 + 12 * drive(k), 5 * drive(k),
+                       10 * drive(k));
+  };
+  const std::string head = "t_s,I_mA,p_bar,x_mm\n";
+  const KnownRig ticks{0.012, 0.3};
+  EXPECT_EQ(start(of(head, plain, "5kg.csv", ticks)), "") << "a row each tick";
+  const auto said = [&](const Recognised& found, const char* what) {
+    EXPECT_EQ(start(found), "settled") << what;
+    EXPECT_TRUE(std::ranges::any_of(found.maps[0].remarks, [&](const std::string& remark) {
+      return holds(remark, what);
+    })) << what;
+  };
+  said(of(
+           head, [&](int k) { return plain(199 - k); }, "5kg.csv", ticks),
+       "newest rows");
+  said(of(
+           head, [&](int k) { return plain(k) + (k == 50 ? "\n" + plain(k) : ""); }, "5kg.csv", ticks),
+       "stands twice");
+  said(of(
+           head, [&](int k) { return plain(k) + (k == 199 ? "\n1.2,11,2,3" : ""); }, "5kg.csv", ticks),
+       "is left out");
+}
+
+TEST_F(Asked, DaysBesideAClockThatGoesOverMidnightAreNoRuns) {
+  const auto row = [](int k) {
+    const int ms = (86399000 + 12 * k) % 86400000;
+    return fmt::format("0{}.05.2024,{:02}:{:02}:{:02}.{:03},{:.3f},{:.2f}", ms > 1000000 ? 3 : 4,
+                       ms / 3600000, ms / 60000 % 60, ms / 1000 % 60, ms % 1000, 5 * drive(k), 10 * drive(k));
+  };
+  EXPECT_EQ(of("Date,Time,p_bar,x_mm\n", row).runs.size(), 1u);
+}
+
+TEST_F(Asked, WhatStandsForNoneAndWhatIsNoMusclePressure) {
+  const auto row = [](int k) {
+    return fmt::format("{},6.1,{:.3f},{}", 12 * k, 5 * drive(k),
+                       k % 20 == 7 ? "-9999" : fmt::format("{:.2f}", 10 * drive(k)));
+  };
+  const Recognised found = of("t_ms,Netzdruck_bar,p_bar,x_mm\n", row);
+  EXPECT_EQ(column(found, "muscle_pressure").column.value, "p_bar");
+  ASSERT_TRUE(column(found, "contraction").missing);
+  EXPECT_EQ(column(found, "contraction").missing->value, "-9999");
+  EXPECT_FALSE(column(found, "muscle_pressure").missing);
+}
+
+TEST_F(Asked, ALineOfNamesAboveOneOfNamesAndUnits) {
+  const auto row = [](int k) {
+    return fmt::format("{:.3f}\t{:.3f}\t{:.2f}", 0.012 * k, 5 * drive(k), 10 * drive(k));
+  };
+  const Recognised found =
+      of("Zeit  1 - Standardmessrate\tMuskeldruck\tWeg\nZeit [s]\tDruck [bar]\tWeg [mm]\n", row);
+  EXPECT_EQ(column(found, "time").unit.value, "s");
+  EXPECT_EQ(column(found, "muscle_pressure").column.value, "Druck [bar]");
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+// Rows of a table in the order of the clock that stamped them.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace mckibben::input {
+
+/// A counter that runs over goes on: of 16 or 32 bits (millis, micros), or the milliseconds of a second. A
+/// recorder that begins anew does so where it began before. In the units of the file; false: none did.
+bool run_on(std::vector<double>& stamps);
+
+struct RowOrder {
+  std::vector<std::size_t> rows;  ///< that are read, in this order
+  std::string note;               ///< what was done; empty: nothing
+  std::size_t first = 0;          ///< the first row that is left out
+};
+
+/// From the last to the first where stamps fall from row to row. Without rows that stand twice, rows without
+/// a stamp, and single rows whose stamp does not fit between its neighbours'. Where more than one row in 20
+/// had to go, it is another kind of clock, and nothing is done. `stamps`: in any unit, NaN where a row has
+/// none. `same`: whether row k repeats all readings of the one before.
+RowOrder order_of_rows(const std::vector<double>& stamps, const std::function<bool(std::size_t)>& same);
+
+}  // namespace mckibben::input
