@@ -1,6 +1,7 @@
 // See the header.
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -69,6 +70,17 @@ bool are_branches(const domain::Dataset& data) {
     down = down || falls;
   }
   return up && down;
+}
+
+bool have_own_lengths(const domain::Dataset& data) {
+  std::set<double> lengths;
+  for (const domain::Run& run : data.runs) {
+    if (!run.measured || !run.measured->gives_length()) return false;
+    const std::vector<double>& length = run.measured->given("contraction");
+    const auto [least, most] = std::ranges::minmax(length);
+    if (least != most || !lengths.insert(least).second) return false;
+  }
+  return lengths.size() > 1;
 }
 
 }  // namespace mckibben::data

@@ -1,5 +1,5 @@
 // Runs of fewer rows: the beginning of one, or one long run cut so that it can be held out part by part; or
-// the branches of a loop.
+// the branches of a loop; or each at a length of its own.
 #pragma once
 
 #include <sim/domain/dataset.hpp>
@@ -17,5 +17,8 @@ bool has_parts(const domain::Dataset& data);
 /// Whether each run is one branch of a loop of settled points, and both ways are there: what all runs of one
 /// way share is hysteresis then.
 bool are_branches(const domain::Dataset& data);
+
+/// Whether a bench holds each run at a length that no other has: what is of one run alone may be its length's.
+bool have_own_lengths(const domain::Dataset& data);
 
 }  // namespace mckibben::data

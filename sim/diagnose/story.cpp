@@ -75,11 +75,14 @@ std::string bench_in_words(const Diagnosis& d) {
 }
 
 std::string gap_in_words(const Diagnosis& d) {
+  const std::string nominal = amount_in_words(d, d.gap.nominal_rmse),
+                    corrected = amount_in_words(d, d.gap.corrected_rmse);
   return fmt::format(
-      "On runs that the fit has not seen the error of {} falls from {} to {}; the instruments cannot see "
-      "below "
-      "{}.",
-      what_is_judged(d), amount_in_words(d, d.gap.nominal_rmse), amount_in_words(d, d.gap.corrected_rmse),
+      "On runs that the fit has not seen the error of {} {}; the instruments cannot see below {}.",
+      what_is_judged(d),
+      d.gap.corrected_rmse < d.gap.nominal_rmse
+          ? fmt::format("falls from {} to {}", nominal, corrected)
+          : fmt::format("is {}, and {} as described", corrected, nominal),
       amount_in_words(d, d.gap.noise_floor));
 }
 

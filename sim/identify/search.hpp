@@ -41,7 +41,7 @@ class Search {
         settings_(settings),
         dictionary_(problem.dictionary),
         rows_(problem.rows),
-        branches_(data::are_branches(problem.rows.data())) {}
+        unlike_(data::are_branches(problem.rows.data()) || data::have_own_lengths(problem.rows.data())) {}
 
   /// The rig as described: there is a result from here on.
   void begin();
@@ -112,7 +112,7 @@ class Search {
   const Settings& settings_;
   const Dictionary& dictionary_;
   const Rows& rows_;
-  const bool branches_;  ///< no run's label, zero or gain can be told from hysteresis
+  const bool unlike_;  ///< no run's label, zero or gain can be told from hysteresis, or from its length
   std::map<Key, Model> table_;
   std::optional<Model> here_, at_;
   /// What the last look saw of all candidates.

@@ -1,6 +1,8 @@
 // A whole diagnosis of forces that were read on a bench.
 #include "diagnose/bench.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "diagnose/planted.hpp"
@@ -24,6 +26,16 @@ TEST(BenchDiagnosis, NamesTheTubeThatPullsBack) {
   EXPECT_GT(found.gap.nominal_rmse, 30.0);  // N
   EXPECT_LT(found.gap.corrected_rmse, 2.0 * found.gap.noise_floor);
   EXPECT_NE(found.because.find("the cord's force falls from"), std::string::npos) << found.because;
+}
+
+// Ends that pull more or less at each length look like gains of runs.
+TEST(BenchDiagnosis, FindsNoFaultOfARunWhereEachHasALengthOfItsOwn) {
+  domain::Dataset data = on_a_bench({}, 0.5);
+  const std::array more{0.10, -0.045, -0.04, 0.03, 0.07};
+  for (std::size_t i = 0; i < more.size(); ++i)
+    for (double& force_N : data.runs[i].force_N) force_N *= 1.0 + more[i];
+  const Diagnosis found = diagnosis_of(data, 2);
+  for (const BenchFault& fault : found.bench) ADD_FAILURE() << fault.words;
 }
 
 TEST(BenchDiagnosis, NamesNothingWhereNothingIsMissing) {
