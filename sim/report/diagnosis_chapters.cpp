@@ -136,7 +136,7 @@ std::string recalibrated_html(const Diagnosis& diagnosis) {
     rows += row(moved.fitted.name, {readable(moved.nominal, moved.fitted.unit), shown.value, shown.interval,
                                     rounded(moved.deviations, 1, true)});
   }
-  return "<div class='wide'>" +
+  return "<div class='wide' tabindex='0'>" +
          table("Recalibrated; deviations are those within which a data sheet or a ruler gives the value",
                {"parameter", "nominal", "fitted", "95 % interval", "deviations"}, rows) +
          "</div>\n";

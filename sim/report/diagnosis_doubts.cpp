@@ -34,7 +34,7 @@ std::string support_html(const Diagnosis& diagnosis) {
                    runs(support.by), runs(support.against)});
     }
   if (rows.empty()) return "";
-  return "<div class='wide'>" +
+  return "<div class='wide' tabindex='0'>" +
          table(
              "Evidence for each name: the fall of the misfit, the larger misfit of the best candidate that "
              "is not equivalent, and runs whose own misfit falls or rises by more than chance",
@@ -60,7 +60,7 @@ std::string competition_html(const Diagnosis& diagnosis, const plant::Rig& rig) 
                 "squares of the fitted runs over their long-term variance, and the prior penalty: the "
                 "squared deviations by which the rig's parameters moved (further off: of wider ones, by "
                 "5/3). If equivalent, parameters are preferred to names, names to a law.") +
-          "<div class='wide'>" +
+          "<div class='wide' tabindex='0'>" +
           table("Candidate models", {"by", "misfit", "prior penalty", "error held out", "equivalent"}, rows) +
           "</div>\n");
 }

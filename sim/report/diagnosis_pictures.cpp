@@ -26,8 +26,9 @@ using output::rounded;
 constexpr double width = 460.0;
 
 std::string picture(double height_px, const std::string& says, const std::string& body) {
-  return fmt::format("<svg role='img' viewBox='0 0 {} {:.0f}' aria-label='{}'>\n{}</svg>\n", width, height_px,
-                     escaped(says), body);
+  const bool leads_on = body.find("<a ") != std::string::npos;
+  return fmt::format("<svg role='{}' viewBox='0 0 {} {:.0f}' aria-label='{}'>\n{}</svg>\n",
+                     leads_on ? "group" : "img", width, height_px, escaped(says), body);
 }
 
 std::string marked_label(double x, double y, std::string_view anchor, std::string_view svg,

@@ -94,6 +94,22 @@ std::string key(const char* kind) {
                      kind);
 }
 
+/// Of more runs than can be told apart in one picture, one for each with the same axes.
+std::string loop_html(const Group& group, const Loop& loop, const plant::Rig& rig, std::size_t most) {
+  constexpr std::size_t told_apart = 2;
+  std::string svg;
+  if (group.runs.size() <= told_apart) svg = loop_svg(group, loop, rig, most);
+  if (!svg.empty())
+    return fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, escaped(loop.title));
+  for (const Run& run : group.runs)
+    if (group.runs.size() > told_apart)
+      if (const std::string one = loop_svg(group, loop, rig, most, &run); !one.empty())
+        svg += fmt::format("<figure data-run='{}'>\n{}<figcaption>{}</figcaption></figure>\n", run.style, one,
+                           escaped(run.name));
+  if (svg.empty()) return "";
+  return fmt::format("<div class='multiples'><p class='title'>{}</p>\n{}</div>\n", escaped(loop.title), svg);
+}
+
 /// What is there without scripts: loops of every group, and plots that are wanted as pictures.
 std::string stills(const Contents& contents) {
   std::string html;
@@ -113,11 +129,7 @@ std::string stills(const Contents& contents) {
       if (plot.still)
         html += fmt::format("<figure class='still'>\n{}<figcaption>{}</figcaption></figure>\n",
                             still_svg(group, plot, contents.rig, most), escaped(plot.title));
-    for (const auto& loop : contents.loops) {
-      const std::string svg = loop_svg(group, loop, contents.rig, most);
-      if (!svg.empty())
-        html += fmt::format("<figure>\n{}<figcaption>{}</figcaption></figure>\n", svg, escaped(loop.title));
-    }
+    for (const auto& loop : contents.loops) html += loop_html(group, loop, contents.rig, most);
     html += "</div>\n</section>\n";
   }
   return html;
@@ -148,12 +160,13 @@ constexpr const char* controls =
 /// The rig, the readout, and where the script puts its plots.
 std::string rig_and_plots(const Contents& contents) {
   return "<div class='stage'>\n<figure class='live-only'><svg id='rig' role='img' aria-label='The rig at the "
-         "time of the cursor'></svg>\n<figcaption id='rig-caption'></figcaption></figure>\n<div>\n<div "
-         "class='wide result live-only'><table id='readout'></table></div>\n"
+         "time of the cursor'></svg>\n<figcaption id='rig-caption'></figcaption></figure>\n" +
+         rig_html(contents) +
+         "<div class='readout'>\n<div "
+         "class='wide result live-only' tabindex='0'><table id='readout'></table></div>\n"
          "<p class='small live-only'>Tick runs to compare; the round mark chooses the one that is drawn. "
          "Move over a plot to set the time, drag to zoom, double-click to see the whole run. Keys: space "
-         "plays, left and right step.</p>\n" +
-         rig_html(contents) + "</div>\n</div>\n<div id='plots' class='live-only'></div>\n";
+         "plays, left and right step.</p>\n</div>\n</div>\n<div id='plots' class='live-only'></div>\n";
 }
 
 /// One box: of several the first, the others when asked for.
@@ -189,12 +202,12 @@ std::string html_of(const Contents& contents) {
       escaped(contents.title));
   html += fmt::format("<style>\n{}\n{}</style>\n", runs ? uplot_css : "", page_css);
   if (runs) html += "<script>document.documentElement.classList.add('live')</script>\n";
-  html += "</head>\n<body>\n";
+  html += "</head>\n<body>\n<main>\n";
   if (contents.lengths) html += unit_switch;
   html += fmt::format("<p class='small'>{}</p>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n",
                       escaped(contents.about), escaped(contents.title), contents.sentence);
   html += contents.opening;
-  html += "<div class='wide result'>\n" + contents.table + "</div>\n";
+  html += "<div class='wide result' tabindex='0'>\n" + contents.table + "</div>\n";
   html += warnings_html(contents);
   html += "<details><summary>All numbers, as printed</summary><pre>" + escaped(contents.details) +
           "</pre></details>\n";
@@ -213,11 +226,13 @@ std::string html_of(const Contents& contents) {
         "beginning, what was changed, the gap and what to measure next</label></p>\n";
   html += fmt::format("<p class='small'>mckibben {}. {}</p>\n", MCKIBBEN_VERSION,
                       text_html(contents.beside, contents.rig));
-  if (runs) {
+  if (runs)
     html += fmt::format(
         "<details class='small'><summary>Licence of uPlot, which draws the plots over "
         "time</summary><pre>{}</pre></details>\n",
         escaped(uplot_licence));
+  html += "</main>\n";
+  if (runs) {
     html += "<script type='application/json' id='data'>" + data_of(contents) + "</script>\n";
     html += fmt::format("<script>\n{}\n</script>\n<script>\n'use strict';\n", uplot_js);
     for (const auto& part : {data_js, plots_js, loops_js, rig_js, pair_js, lever_js, page_js}) html += part;

@@ -56,11 +56,11 @@ std::string length_found(const std::smatch& found, double mm, std::string_view t
   const std::string all = found.str();
   if (found[1].matched)
     return either(all, scaled(found.str(1), 1.0 / mm) + (found[2].matched ? " /s" : ""), tag);
-  if (found[3].matched) return either("height" + scaled(found.str(3), mm) + " mm", all, tag);
+  if (found[3].matched) return either("contraction" + scaled(found.str(3), mm) + " mm", all, tag);
   if (found[5].matched)
     return escaped(found.str(4)) + either(scaled(found.str(5), mm) + " mm", found.str(5), tag);
   if (found[6].matched) return either(scaled(found.str(6), mm) + " mm/s", all, tag);
-  return either(scaled(found.str(7), mm) + " mm of height", all, tag);
+  return either(scaled(found.str(7), mm) + " mm of contraction", all, tag);
 }
 
 }  // namespace

@@ -22,9 +22,11 @@ function showLoops(group, shown, drawn) {
 function markLoops(group, tick, shown) {
   for (const svg of loopsOf(group)) {
     const [x, y] = svg.dataset.keys.split(' ');
+    const only = svg.dataset.only;
     for (const dot of svg.querySelectorAll('.dot')) dot.remove();
     for (const index of shown) {
       const {values, style} = group.runs[index];
+      if (only !== undefined && Number(only) !== style) continue;
       if ((values[x]?.[tick] ?? null) === null || (values[y]?.[tick] ?? null) === null) continue;
       svg.append(make('circle', {
         class: `dot c${style % 7}`,

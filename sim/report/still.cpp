@@ -24,8 +24,7 @@ std::string attribute(char name, const output::Scale& scale) {
 template <class Drawn>
 std::string in_units(const std::string& label, const plant::Rig& rig, const Drawn& drawn) {
   if (label != ratio_unit) return drawn(1.0, label);
-  return either(drawn(length_mm(rig), rig.has_angle() ? "shortening of the muscle in mm" : "height in mm"),
-                drawn(1.0, label), "g");
+  return either(drawn(length_mm(rig), "contraction in mm"), drawn(1.0, label), "g");
 }
 
 std::string floor_svg(const output::Panel& panel) {
@@ -70,7 +69,8 @@ std::string chart(const std::string& head, const std::string& x_label, const std
   std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", picture_width,
                                 picture_height, head, attribute('x', x), attribute('y', y));
   svg += axes_svg(panel, x_label, y_label, rig);
-  for (const auto& curve : curves) svg += curve_svg(curve, panel);
+  for (const auto& curve : curves)
+    if (curve.shown) svg += curve_svg(curve, panel);
   if (floor > 0.0) svg += floor_svg(panel);
   return svg + "</svg>\n";
 }
@@ -142,7 +142,7 @@ std::vector<Curve> curves_over_time(const Group& group, const Plot& plot, const 
   return curves;
 }
 
-std::vector<Curve> curves_of(const Group& group, const Loop& loop, std::size_t most) {
+std::vector<Curve> curves_of(const Group& group, const Loop& loop, std::size_t most, const Run* only) {
   std::vector<Curve> curves;
   const AtTick *measured_x = find(group.given, loop.given_x), *measured_y = find(group.given, loop.given_y);
   if (measured_x != nullptr && measured_y != nullptr) {
@@ -154,7 +154,9 @@ std::vector<Curve> curves_of(const Group& group, const Loop& loop, std::size_t m
   for (const auto& run : group.runs) {
     const AtTick *x = find(group, run, loop.x), *y = find(group, run, loop.y);
     if (x == nullptr || y == nullptr) continue;
-    Curve curve{.kind = run_class(run, loop.dots ? "dots" : "run"), .dots = loop.dots};
+    Curve curve{.kind = run_class(run, loop.dots ? "dots" : "run"),
+                .dots = loop.dots,
+                .shown = only == nullptr || only == &run};
     for (std::size_t k = 0; k < run.ticks; k += stride(run.ticks, most))
       curve.points.emplace_back((*x)(k), (*y)(k));
     curves.push_back(std::move(curve));
@@ -167,10 +169,13 @@ std::string still_svg(const Group& group, const Plot& plot, const plant::Rig& ri
                plot.unit, curves_over_time(group, plot, rig, most), rig, plot.floor);
 }
 
-std::string loop_svg(const Group& group, const Loop& loop, const plant::Rig& rig, std::size_t most) {
-  const std::string head = fmt::format("class='loop' data-loop='{}' data-keys='{} {}' aria-label='{}, {}'",
-                                       loop.id, loop.x, loop.y, escaped(loop.title), escaped(group.name));
-  return chart(head, loop.x_label, loop.y_label, curves_of(group, loop, most), rig);
+std::string loop_svg(const Group& group, const Loop& loop, const plant::Rig& rig, std::size_t most,
+                     const Run* only) {
+  const std::string head = fmt::format(
+      "class='loop' data-loop='{}' data-keys='{} {}'{} aria-label='{}, {}{}'", loop.id, loop.x, loop.y,
+      only == nullptr ? "" : fmt::format(" data-only='{}'", only->style), escaped(loop.title),
+      escaped(group.name), only == nullptr ? "" : ", " + escaped(only->name));
+  return chart(head, loop.x_label, loop.y_label, curves_of(group, loop, most, only), rig);
 }
 
 }  // namespace mckibben::report

@@ -20,7 +20,9 @@ std::size_t ticks_looked_at(std::size_t runs);
 std::string still_svg(const Group& group, const Plot& plot, const plant::Rig& rig, std::size_t most);
 
 /// Two quantities of each run against each other; empty if no run has them.
-std::string loop_svg(const Group& group, const Loop& loop, const plant::Rig& rig, std::size_t most);
+/// `only`: one of its runs, with the axes of all; none: all of them.
+std::string loop_svg(const Group& group, const Loop& loop, const plant::Rig& rig, std::size_t most,
+                     const Run* only = nullptr);
 
 // Parts of such pictures, for those that lay out their own.
 
@@ -28,11 +30,13 @@ std::string loop_svg(const Group& group, const Loop& loop, const plant::Rig& rig
 struct Curve {
   std::string kind;  ///< class and data-run
   bool dots = false;
+  bool shown = true;  ///< if not, it only holds its place on the axes
   std::vector<std::pair<double, double>> points{};
 };
 std::vector<Curve> curves_over_time(const Group& group, const Plot& plot, const plant::Rig& rig,
                                     std::size_t most);
-std::vector<Curve> curves_of(const Group& group, const Loop& loop, std::size_t most);
+std::vector<Curve> curves_of(const Group& group, const Loop& loop, std::size_t most,
+                             const Run* only = nullptr);
 
 /// Makes room for them.
 void hold(const std::vector<Curve>& curves, output::Panel& panel);

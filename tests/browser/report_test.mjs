@@ -279,8 +279,10 @@ test('without scripts the table and a picture of every load are there', async ()
   assert.ok(await page.locator('table').first().isVisible());
   for (const load of ['11.138 kg', '23.406 kg']) {
     const group = page.locator('section.group', {has: page.locator('h3', {hasText: load})});
-    assert.equal(await group.locator('svg[viewBox="0 0 460 300"]:visible').count(), 4);
+    assert.equal(await group.locator('svg[viewBox="0 0 460 300"]:visible').count(), 1 + 3 * 3);
     assert.equal(await group.locator('figure').first().locator('path.run').count(), 3);
+    for (const one of await group.locator('.multiples figure').all())  // three loops of three runs
+      assert.equal(await one.locator('path.run, path.dots').count(), 1);
   }
   assert.equal(await page.locator('#play').isVisible(), false);
   await done();

@@ -159,7 +159,7 @@ test('without scripts a diagnosis tells its whole story', async () => {
   assert.ok(await page.locator('svg[aria-label=\'Disagreement by pressure\']').isVisible());
   assert.ok(await page.locator('svg[aria-label=\'Errors of each run\']').isVisible());
   const held = page.locator('section.group').first();
-  assert.equal(await held.locator('svg[viewBox="0 0 460 300"]:visible').count(), 4);
+  assert.equal(await held.locator('svg[viewBox="0 0 460 300"]:visible').count(), 2 + 2 * 3);
   assert.equal(await held.locator('path.floor').count(), 1);
   await done();
 });

@@ -37,4 +37,4 @@ END
 "$program" dataset "$here/joint.yaml" --out "$folder/joint" > /dev/null
 "$program" dataset "$here/lever.yaml" --out "$folder/lever" > /dev/null
 "$program" replay leaky --rig diagnosis/rig.yaml --out "$folder/mended" > /dev/null
-node --test --test-reporter=spec report_test.mjs results_test.mjs
+node --test --test-reporter=spec report_test.mjs results_test.mjs look_test.mjs

@@ -172,14 +172,14 @@ TEST(Length, InTextIsInTheUnitThatTheReaderWants) {
            Case{"it falls from 3.4 mm to 0.038 mm.", "it falls from 3.4 mm to 0.038 mm.",
                 "it falls from 0.0113 to 0.000127."},
            {"5 to 25 mm/s", "5 to 25 mm/s", "0.0167 to 0.0833 /s"},
-           {"at a contraction ratio of 0.101 it asks 0.0303 /s", "at a height of 30.3 mm it asks 9.09 mm/s",
+           {"at a contraction ratio of 0.101 it asks 0.0303 /s", "at a contraction of 30.3 mm it asks 9.09 mm/s",
             "at a contraction ratio of 0.101 it asks 0.0303 /s"},
-           {"contraction ratios of -0.001 to 0.21", "heights of -0.3 to 63 mm",
+           {"contraction ratios of -0.001 to 0.21", "contractions of -0.3 to 63 mm",
             "contraction ratios of -0.001 to 0.21"},
            {"the smallest reachable one from above, held, is 0.1; 7 others",
             "the smallest reachable one from above, held, is 30 mm; 7 others",
             "the smallest reachable one from above, held, is 0.1; 7 others"},
-           {"differ by 0.0003 in contraction ratio", "differ by 0.09 mm of height",
+           {"differ by 0.0003 in contraction ratio", "differ by 0.09 mm of contraction",
             "differ by 0.0003 in contraction ratio"},
            {"<r01> is 3 ticks late: 2 mA, 1e-6 m3/s", "&lt;r01&gt; is 3 ticks late: 2 mA, 1e-6 m3/s",
             "&lt;r01&gt; is 3 ticks late: 2 mA, 1e-6 m3/s"},
@@ -195,7 +195,7 @@ TEST(Page, WarningsAndSentencesFollowTheUnit) {
   Contents contents;
   contents.warnings = {"it asks a contraction ratio of 0.07"};
   const std::string html = html_of(contents);
-  EXPECT_TRUE(holds(seen(html, "mm"), "it asks a height of 21 mm</p>"));
+  EXPECT_TRUE(holds(seen(html, "mm"), "it asks a contraction of 21 mm</p>"));
   EXPECT_TRUE(holds(seen(html, "ratio"), "it asks a contraction ratio of 0.07</p>"));
 }
 
@@ -210,7 +210,7 @@ TEST(Still, AnAxisOfLengthsHasRoundNumbersInBothUnits) {
   const auto mm = svg.find("<g class='mm'>"), ratio = svg.find("<g class='ratio'>");
   ASSERT_LT(mm, ratio);
   ASSERT_NE(ratio, std::string::npos);
-  EXPECT_TRUE(holds(svg.substr(mm, ratio - mm), ">10<", ">20<", ">30<", "height in mm"));
+  EXPECT_TRUE(holds(svg.substr(mm, ratio - mm), ">10<", ">20<", ">30<", "contraction in mm"));
   for (const char* number : {">0.04<", ">0.1<", ">contraction ratio<"})
     EXPECT_NE(svg.find(number, ratio), std::string::npos) << number;
   EXPECT_EQ(count(svg, ">muscle pressure in bar<"), 1u);
