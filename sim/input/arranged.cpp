@@ -210,7 +210,7 @@ void order_rows(Table& table, const ColumnMap& map, TableProblems& problems) {
   const Table::Column* time = table.find(stamps_name);
   if (time == nullptr || map["time"].as == domain::Role::interval) return;
   for (Table::Column& column : table.columns)
-    if (column.kind == CellKind::stamp) run_on(column.values);
+    if (column.kind == CellKind::stamp || column.kind == CellKind::date) run_on(column.values);
   if (has_own_clocks(map)) return;
   const RowOrder order = order_of_rows(time->values, [&](std::size_t row) {
     return std::ranges::all_of(table.columns, [&](const Table::Column& column) {

@@ -54,6 +54,26 @@ std::vector<std::size_t> misplaced(const std::vector<double>& stamps) {
   return out;
 }
 
+/// Rows by their stamps, if these come thrice and more out of order and yet lie without a gap: an export that
+/// knows no order. Else none.
+std::vector<std::size_t> sorted(const std::vector<double>& stamps) {
+  constexpr int least_falls = 3;
+  constexpr double gap = 3.0;  // usual steps
+  int falls = 0;
+  for (std::size_t k = 1; k < stamps.size(); ++k) falls += stamps[k] < stamps[k - 1] ? 1 : 0;
+  if (falls < least_falls) return {};
+  std::vector<std::size_t> rows(stamps.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return stamps[row]; });
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(stamps[rows[k]] - stamps[rows[k - 1]]);
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  const bool one_record = std::ranges::all_of(
+      steps, [&](double step) { return step > 0.0 && step <= gap * *middle; });  // false of NaN, too
+  return one_record ? rows : std::vector<std::size_t>{};
+}
+
 std::string times(std::size_t number, const char* one, const char* many) {
   return fmt::format("{} {}", number, number == 1 ? one : many);
 }
@@ -61,17 +81,23 @@ std::string times(std::size_t number, const char* one, const char* many) {
 }  // namespace
 
 bool run_on(std::vector<double>& stamps) {
-  constexpr std::array wholes{1000.0, 65536.0, 4294967296.0};
-  constexpr double late = 1.5;  // steps: more is no counter that goes on
-  double passed = 0.0, step = 0.0, last = std::nan("");
-  const double start = stamps.empty() ? 0.0 : stamps.front();
+  constexpr std::array wholes{60.0, 1000.0, 3600.0, 65536.0, 86400.0, 4294967296.0};
+  constexpr double late = 1.5;  // usual steps: more is no counter that goes on
+  constexpr double early = 0.5;
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < stamps.size(); ++k)
+    if (stamps[k] > stamps[k - 1]) steps.push_back(stamps[k] - stamps[k - 1]);
+  if (steps.empty()) return false;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::ranges::nth_element(steps, middle);
+  const double step = *middle, start = stamps.front();
+  double passed = 0.0, last = std::nan("");
   for (double& stamp : stamps) {
     const double now = stamp;
     if (std::isnan(now)) continue;
-    if (now > last) step = now - last;
     if (now < last && (passed > 0.0 || now != start))
       for (const double whole : wholes)
-        if (now + whole > last && now + whole - last <= late * step) {
+        if (const double on = now + whole - last; on >= early * step && on <= late * step) {
           passed += whole;
           break;
         }
@@ -85,10 +111,16 @@ RowOrder order_of_rows(const std::vector<double>& stamps, const std::function<bo
   RowOrder order;
   order.rows.resize(stamps.size());
   std::iota(order.rows.begin(), order.rows.end(), 0);
-  const auto falls = [](double before, double now) { return !(now < before); };
-  if (stamps.size() > 2 && std::ranges::adjacent_find(stamps, falls) == stamps.end()) {
+  const auto rises = [](double before, double now) { return !(now <= before); };
+  if (stamps.size() > 2 && stamps.back() < stamps.front() &&
+      std::ranges::adjacent_find(stamps, rises) == stamps.end()) {
     std::ranges::reverse(order.rows);
     order.note = "the newest rows stand first: they are read from the last to the first";
+    return order;
+  }
+  if (std::vector<std::size_t> by_time = sorted(stamps); !by_time.empty()) {
+    order.rows = std::move(by_time);
+    order.note = "the rows are not in the order of their time: they are read in it";
     return order;
   }
   const std::vector<std::size_t> again = doubled(stamps, same), wrong = misplaced(stamps);

@@ -8,7 +8,8 @@
 
 namespace mckibben::input {
 
-/// A counter that runs over goes on: of 16 or 32 bits (millis, micros), or the milliseconds of a second. A
+/// A counter that runs over goes on: of 16 or 32 bits (millis, micros), the milliseconds of a second, the
+/// seconds of a minute, hour or day. A
 /// recorder that begins anew does so where it began before. In the units of the file; false: none did.
 bool run_on(std::vector<double>& stamps);
 
@@ -18,10 +19,11 @@ struct RowOrder {
   std::size_t first = 0;          ///< the first row that is left out
 };
 
-/// From the last to the first where stamps fall from row to row. Without rows that stand twice, rows without
-/// a stamp, and single rows whose stamp does not fit between its neighbours'. Where more than one row in 20
-/// had to go, it is another kind of clock, and nothing is done. `stamps`: in any unit, NaN where a row has
-/// none. `same`: whether row k repeats all readings of the one before.
+/// From the last to the first where stamps fall from row to row; by time where they are in no order. Without
+/// rows that stand twice, rows without a stamp, and single rows whose stamp does not fit between its
+/// neighbours'. Where more than one row in 20 had to go, it is another kind of clock, and nothing is done.
+/// `stamps`: in any unit, NaN where a row has none. `same`: whether row k repeats all readings of the one
+/// before.
 RowOrder order_of_rows(const std::vector<double>& stamps, const std::function<bool(std::size_t)>& same);
 
 }  // namespace mckibben::input

@@ -296,12 +296,29 @@ std::optional<Line> kind_of_words(std::string_view text, const TextLayout& layou
 
 }  // namespace
 
+namespace {
+
+/// `5 kg` alone in a table of several columns: the title of the rows below it.
+bool is_title(std::string_view text, const TextLayout& layout) {
+  const std::size_t last = text.find_last_not_of(" \t,;|\"\r");
+  if (layout.headings.size() < 2 || last == std::string_view::npos ||
+      std::isalpha(static_cast<unsigned char>(text[last])) == 0)
+    return false;
+  std::vector<Cell> cells{{trimmed(text), 0}};
+  if (layout.separator != ' ') cells = split_cells(text, layout.separator);
+  std::erase_if(cells, [](const Cell& cell) { return cell.text.empty(); });
+  std::string unit;
+  return cells.size() == 1 && take_unit(cells.front(), unit) && !unit.empty();
+}
+
+}  // namespace
+
 Line kind_of(const Source& source, const TextLayout& layout, std::size_t line) {
   const std::string_view text = without_order_mark(source.line(line));
   if (is_blank(text)) return Line::blank;
   for (std::size_t head = layout.heading; head > 0 && head < layout.first_row; ++head)
     if (without_order_mark(source.line(head)) == text) return Line::heading;
-  if (is_marked(text)) return Line::remark;
+  if (is_marked(text) || is_title(text, layout)) return Line::remark;
   if (const auto words = kind_of_words(text, layout)) return *words;
   const bool has_separator = layout.separator != ' ' && text.find(layout.separator) != std::string_view::npos;
   if (has_separator || layout.headings.size() < 2) return Line::row;

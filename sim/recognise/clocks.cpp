@@ -10,6 +10,7 @@
 #include <sim/input/dates.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/row_order.hpp>
 #include <sim/recognise/columns.hpp>
 #include <sim/recognise/headings.hpp>
 
@@ -26,8 +27,10 @@ bool are_intervals(const Values& values) {
     sorted.push_back(value);
   }
   constexpr double no_interval = 1e8;  // stamps that have lost their digits
-  const bool ascend = std::ranges::is_sorted(sorted) && sorted.front() != sorted.back();
-  if (sorted.size() < 3 || ascend || 5 * falls < sorted.size() || sorted.front() > no_interval) return false;
+  const bool ascend = std::ranges::is_sorted(sorted) && sorted.front() != sorted.back(),
+             descend = std::ranges::is_sorted(sorted, std::greater()) && sorted.front() != sorted.back();
+  if (sorted.size() < 3 || ascend || descend || 5 * falls < sorted.size() || sorted.front() > no_interval)
+    return false;
   std::ranges::sort(sorted);
   constexpr double alike = 5.0;
   const std::size_t n = sorted.size();
@@ -107,6 +110,8 @@ ColumnGuess guess_of_time(const UnknownColumn& column, const Heading& heading, c
                     {}};
   if (!column.either.empty())
     guess.factor = decimals_or_thousands(column.either);
+  else if (!heading.times.empty())
+    guess.factor = left_open(fmt::format("its heading says {}: how many of its unit is one", heading.times));
   else if (!heading.other_unit.empty())
     guess.factor = unit_of_the_map();
   if (!column.is_date && are_intervals(column.values))
@@ -218,6 +223,30 @@ TimeGuess time_of(const UnknownTable& table) {
   found.guess->column = left_open(fmt::format("it may be any of: {}", fmt::join(names, "; ")));
   found.guess->unit = left_open("it goes with the column");
   return found;
+}
+
+void put_in_order(UnknownTable& table) {
+  const TimeGuess time = time_of(table);
+  if (!time.guess || time.guess->input) return;
+  for (UnknownColumn& column : table.columns)
+    if (column.name == time.guess->column.value || std::ranges::count(time.clocks, &column) > 0)
+      table.reordered = input::run_on(column.values) || table.reordered;
+  const UnknownColumn* stamps = table.find(time.guess->column.value);
+  if (stamps == nullptr || !time.clocks.empty()) return;
+  const auto same = [&](std::size_t row) {
+    const auto repeats = [&](const UnknownColumn& column) {
+      const double now = column.values[row], before = column.values[row - 1];
+      return &column == stamps || now == before || (std::isnan(now) && std::isnan(before));
+    };
+    return std::ranges::all_of(table.columns, repeats) && std::ranges::all_of(table.texts, repeats);
+  };
+  const input::RowOrder order = input::order_of_rows(stamps->values, same);
+  if (order.note.empty()) return;
+  UnknownTable some = table.rows(order.rows);
+  some.reordered = true;
+  const std::string at = order.first > 0 ? fmt::format(" (the first: row {})", order.first + 1) : "";
+  some.note += fmt::format("{}{}{}", some.note.empty() ? "" : "; ", order.note, at);
+  table = std::move(some);
 }
 
 Values seconds_of(const UnknownTable& table, const ColumnGuess& time, std::string* done) {

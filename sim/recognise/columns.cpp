@@ -274,6 +274,41 @@ Told unit_of_the_map() {
   return {"1", "the unit that is written here counts, not the heading's"};
 }
 
+namespace {
+
+constexpr double follows = 0.5, changes_by = 0.1, stays_within = 0.3;
+
+/// The muscle's pressure follows the command; one that drives the muscle changes. Others may be a supply's.
+void doubt_pressures(MapGuess& map, const std::vector<const UnknownTable*>& tables) {
+  const ColumnGuess* drive = drive_of(map);
+  for (ColumnGuess& guess : map.columns) {
+    if (guess.quantity->key != "muscle_pressure" || guess.column.open() || drive == nullptr) continue;
+    std::vector<const Values*> drives, readings;
+    Range range{1e300, -1e300}, driven = range;
+    for (const UnknownTable* table : tables) {
+      drives.push_back(column_of(*table, drive->column.value));
+      readings.push_back(column_of(*table, guess.column.value));
+      if (drives.back() == nullptr || readings.back() == nullptr) return;
+      const Range own = range_of(*readings.back()), other = range_of(*drives.back());
+      range = {std::min(range.low, own.low), std::max(range.high, own.high)};
+      driven = {std::min(driven.low, other.low), std::max(driven.high, other.high)};
+    }
+    const bool changes = driven.high > driven.low,
+               steady = range.high - range.low < stays_within * std::abs(range.high);
+    const double correlation = together(drives, readings).correlation;
+    if (drive == &guess && range.high - range.low < changes_by * std::abs(range.high))
+      guess.column =
+          left_open(fmt::format("{} changes by {:.2g} of {:.4g} only: is it the muscle's, or a supply's?",
+                                guess.column.value, range.high - range.low, range.high));
+    else if (drive != &guess && changes && correlation < follows && steady)
+      guess.column = left_open(
+          fmt::format("{} does not follow {} (correlation {:.2f}): is it the muscle's, or a supply's?",
+                      guess.column.value, drive->column.value, correlation));
+  }
+}
+
+}  // namespace
+
 MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known, const KnownRig& rig) {
   const UnknownTable& table = *tables.front();
   std::vector<Named> named;
@@ -330,16 +365,17 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_know
     for (ColumnGuess& guess : map.columns)
       if (guess.quantity->key == "muscle_pressure" && has_pressure)
         guess.input = Told{"input", "no command was recorded, so that the pressure drives the simulation"};
+  doubt_pressures(map, tables);
   const ColumnGuess* drive = drive_of(map);
   bool held = false;
   for (ColumnGuess& guess : map.columns)
     if (guess.quantity->key == "contraction" && drive != nullptr && !guess.column.open()) {
       held = has_force && is_held(guess, tables);
-      const bool is_length = candidates("contraction").front()->heading.is_length;
+      const Heading& heading = candidates("contraction").front()->heading;
       if (held)
-        given_length(guess, is_length);
+        given_length(guess, heading.is_length);
       else
-        sign_and_zero(guess, *drive, tables, is_length, rig);
+        sign_and_zero(guess, *drive, map.find("muscle_pressure"), tables, heading, rig);
     }
   if (!time.guess && !table.time_is_inside)
     map.rows = held

@@ -28,9 +28,11 @@ Told decimals_or_thousands(const std::string& number);
 /// The factor where the unit of the map contradicts what the file says.
 Told unit_of_the_map();
 
-/// Sign and zero of a contraction, by how it goes along with what drives the muscle.
-void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
-                   const std::vector<const UnknownTable*>& tables, bool is_length, const KnownRig& rig);
+/// Sign and zero of a contraction, by how it goes along with what drives the muscle. `gauge`: the muscle's
+/// pressure; null: nobody read it.
+void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const ColumnGuess* gauge,
+                   const std::vector<const UnknownTable*>& tables, const Heading& heading,
+                   const KnownRig& rig);
 
 /// Time as a table seems to hold it.
 struct TimeGuess {
@@ -41,6 +43,9 @@ struct TimeGuess {
 /// Whole numbers, each one more than the one before.
 bool counts_rows(const Values& values);
 TimeGuess time_of(const UnknownTable& table);
+
+/// Rows as the clock of all of them says (input/row_order.hpp).
+void put_in_order(UnknownTable& table);
 
 /// Its stamps in seconds; empty where they are not known. `done`: what was done to them (spread_stamps).
 Values seconds_of(const UnknownTable& table, const ColumnGuess& time, std::string* done = nullptr);
@@ -56,6 +61,10 @@ struct Clock {
   bool ascends = true;
 };
 Clock clock_of(const Values& time_s);
+
+/// How many records take turns in a column: each row is far nearer to the one so many rows before it than to
+/// its neighbour. 1: it is one record.
+std::size_t taking_turns(const Values& values);
 
 /// Lowest and highest number; equal where there is none.
 struct Range {

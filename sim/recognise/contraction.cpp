@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/recognise/columns.hpp>
 
@@ -25,7 +26,8 @@ std::optional<double> length_at_rest(const std::string& unit, bool is_length, co
 
 /// Zero of a contraction that moves along with what drives the muscle; none: 0.
 std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess& drive, const Together& found,
-                              const Range& range, double lowest_drive, bool is_length, const KnownRig& rig) {
+                              const Range& range, double lowest_drive, bool is_length, bool empties,
+                              const KnownRig& rig) {
   const std::string& unit = contraction.unit.value;
   const double span = range.high - range.low;
   const bool falls = found.correlation < 0.0, ratio = unit == "1" || unit == "%";
@@ -49,15 +51,35 @@ std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess&
         fmt::format("what it reads at the muscle's rest length; where {} is lowest, {:.4g}, it still "
                     "moves by {:.4g} {}; perhaps {}, the end of its readings",
                     drive.column.value, lowest_drive, found.scatter, unit, rounded(at_rest)));
-  return Told{rounded(found.at_least_drive),
-              fmt::format("its median where {} is lowest, {:.4g}: is the muscle at rest length there?",
-                          drive.column.value, lowest_drive)};
+  const std::string reason =
+      fmt::format("its median where {} is lowest, {:.4g}", drive.column.value, lowest_drive);
+  if (empties)
+    return Told{rounded(found.at_least_drive), reason + ": no pressure is left in the muscle there"};
+  return left_open(
+      fmt::format("what it reads at the muscle's rest length; {} is {}: it is that if no pressure is left "
+                  "in the muscle there",
+                  rounded(found.at_least_drive), reason));
+}
+
+/// Whether the gauge comes down to 0 in the air, as far as it shows.
+bool reads_nothing(const ColumnGuess& gauge, const std::vector<const UnknownTable*>& tables) {
+  constexpr double nothing = 0.02;  // of its range
+  if (gauge.column.open() || gauge.unit.open() || (gauge.zero && gauge.zero->open())) return false;
+  Range range{1e300, -1e300};
+  for (const UnknownTable* table : tables)
+    if (const Values* values = column_of(*table, gauge.column.value)) {
+      const Range own = range_of(*values);
+      range = {std::min(range.low, own.low), std::max(range.high, own.high)};
+    }
+  const double zero = gauge.zero ? input::parse_number(gauge.zero->value).value_or(0.0) : 0.0;
+  return std::abs(range.low - zero) < nothing * (range.high - range.low);
 }
 
 }  // namespace
 
-void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
-                   const std::vector<const UnknownTable*>& tables, bool is_length, const KnownRig& rig) {
+void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const ColumnGuess* gauge,
+                   const std::vector<const UnknownTable*>& tables, const Heading& heading,
+                   const KnownRig& rig) {
   std::vector<const Values*> drives, readings;
   Range range{1e300, -1e300}, driven = range;
   for (const UnknownTable* table : tables) {
@@ -81,11 +103,17 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive,
   const bool falls = found.correlation < 0.0;
   if (falls && contraction.factor && contraction.factor->open())
     contraction.factor->reason += "; and negative, as it falls while the muscle contracts, " + along;
+  else if (falls && heading.is_contraction && range.high > near_rest_share * (range.high - range.low))
+    contraction.factor =
+        left_open(fmt::format("-1 if it falls as the muscle contracts, and yet its name says the "
+                              "opposite; {}: does that drive the muscle?",
+                              along));
   else if (falls)
     contraction.factor = Told{"-1", "it falls as the muscle contracts, " + along};
   const double at_rest = falls ? range.high : range.low;
   if (!scale_is_open)
-    contraction.zero = zero_told(contraction, drive, found, range, driven.low, is_length, rig);
+    contraction.zero = zero_told(contraction, drive, found, range, driven.low, heading.is_length,
+                                 gauge != nullptr && reads_nothing(*gauge, tables), rig);
   else if (std::abs(at_rest) > near_rest_share * (range.high - range.low))
     contraction.zero = left_open("what it reads with the muscle at its rest length, in its unit");
 }

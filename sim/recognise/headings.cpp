@@ -73,6 +73,20 @@ const std::vector<Vocabulary>& vocabularies() {
         "uncertainty",
         "model",
         "modelled",
+        "sim",
+        "estimated",
+        "estimate",
+        "est",
+        "kalman",
+        "observer",
+        "peak",
+        "limit",
+        "threshold",
+        "thr",
+        "loss",
+        "drop",
+        "diameter",
+        "durchmesser",
         "simulated",
         "predicted",
         "fit",
@@ -232,12 +246,33 @@ std::string times_in(const std::string& heading) {
   for (std::size_t at = 0; at + 2 < heading.size(); ++at) {
     const bool sign = heading[at] == '*' || heading[at] == '/' ||
                       (heading[at] == 'x' && (at == 0 || !is_letter_or_digit(heading[at - 1])));
-    const std::size_t end = std::min(heading.find_first_not_of('0', at + 2), heading.size());
-    if (sign && heading[at + 1] == '1' && end > at + 2 &&
+    const std::size_t one = std::min(heading.find_first_not_of(' ', at + 1), heading.size() - 1);
+    const std::size_t end = std::min(heading.find_first_not_of('0', one + 1), heading.size());
+    if (sign && heading[one] == '1' && end > one + 1 &&
         (end == heading.size() || !is_letter_or_digit(heading[end])))
       return heading.substr(at, end - at);
   }
   return "";
+}
+
+/// 10 ms in "Time in 10 ms": its numbers are so many. Nothing where no number stands before the unit.
+std::string number_of_unit(const Split& split) {
+  if (split.in_brackets || split.behind.empty()) return "";
+  const std::size_t end = split.before.find_last_not_of(' ');
+  if (end == std::string_view::npos || std::isdigit(static_cast<unsigned char>(split.before[end])) == 0)
+    return "";
+  const std::size_t begin = split.before.find_last_not_of("0123456789.,", end) + 1;
+  if (begin == 0 || split.before[begin - 1] != ' ') return "";  // p1 bar
+  return fmt::format("{} {}", split.before.substr(begin, end + 1 - begin), split.behind);
+}
+
+/// Seconds of day, percent of 10 bar, turns per s: the unit is not the last word.
+bool is_of_something(const Split& split) {
+  const Words words = words_of(split.before);
+  return !split.in_brackets && std::ranges::any_of(words, [](const std::string& word) {
+    return word == "of" || word == "per" || word == "percent" || word == "von" || word == "prozent" ||
+           word == "pro";
+  });
 }
 
 /// How far what a heading says can be trusted.
@@ -246,81 +281,6 @@ std::string_view trust(bool by_word, bool by_unit) {
 }
 
 }  // namespace
-
-namespace {
-
-using List = std::initializer_list<std::string_view>;
-
-bool has_word(const std::string& name, List said) {
-  const Words words = words_of(name);
-  return std::ranges::any_of(
-      words, [&](const std::string& word) { return std::ranges::find(said, word) != said.end(); });
-}
-bool begins_with_word(const std::string& name, List said) {
-  const Words words = words_of(name);
-  return !words.empty() && std::ranges::find(said, words.front()) != said.end();
-}
-
-}  // namespace
-
-namespace {
-
-/// psi a, as a unit is read.
-bool is_unit_and_a(const std::string& name) {
-  const Words words = words_of(name);
-  return words.size() > 1 && words.back() == "a" &&
-         input::unit_problem(words[words.size() - 2], "bar").empty();
-}
-
-}  // namespace
-
-bool is_absolute(const std::string& name) {
-  return has_word(name, {"abs", "absolute", "absolut", "absolu", "pabs", "psia", "bara", "kpaa", "mbara"}) ||
-         name.ends_with("(a)") || name.ends_with("(a)]") || name.ends_with("(a))") || is_unit_and_a(name);
-}
-
-bool names_a_run(const std::string& name) {
-  return begins_with_word(name, {"run", "trial", "test", "cycle", "zyklus", "versuch", "lauf", "experiment",
-                                 "rep", "repeat", "repetition", "messung"});
-}
-
-bool names_a_start(const std::string& name) {
-  return has_word(name, {"start", "begin", "new", "beginn"});
-}
-
-bool names_a_phase(const std::string& name) {
-  return has_word(name, {"phase", "state", "stage", "step", "direction", "mode", "branch", "richtung",
-                         "zustand", "status", "comment", "note", "remark", "kommentar"});
-}
-
-bool names_a_load(const std::string& name) {
-  return begins_with_word(name, {"load", "mass", "weight", "last", "masse", "gewicht", "payload"}) &&
-         !has_word(name, {"cell"});
-}
-
-bool names_a_key(const std::string& name) {
-  return has_word(name, {"sensor", "channel", "signal", "variable", "quantity", "name", "key", "what",
-                         "kanal", "parameter", "field", "series", "topic", "tag", "groesse", "größe"});
-}
-
-bool names_a_sensor(const std::string& name) {
-  const std::size_t words = words_of(name).size();
-  return begins_with_word(name, {"sensor", "channel", "kanal", "device", "probe", "muscle", "muskel"}) &&
-         (words == 1 || (words == 2 && has_word(name, {"id", "nr", "no", "number", "index", "name"})));
-}
-
-bool names_rows(const std::string& name) {
-  const Words words = words_of(name);
-  const bool no_heading =
-      words.size() == 1 && words.front().find_first_not_of("0123456789") == std::string::npos;
-  return words.empty() || no_heading || words.back() == "seq" ||
-         begins_with_word(name, {"x", "index", "sample", "samples", "n", "nr", "no", "frame", "count", "tick",
-                                 "counter", "seq", "row", "i", "point", "id"});
-}
-
-bool names_raw(const std::string& name) {
-  return has_word(name, {"counts", "count", "raw", "adc", "digits", "lsb", "bits"});
-}
 
 Heading heading_of(const UnknownColumn& column) {
   for (const auto& [commands, unit] : names(plant::CommandUnit{}))
@@ -335,6 +295,7 @@ Heading heading_of(const UnknownColumn& column) {
       column.heading() != "in" && column.heading() != "min" && !names_a_run(column.heading()))
     heading.unit = input::unit_word(column.heading());  // a heading that is a unit
   if (column.unit.empty() && !split.in_brackets && heading.unit == "1") heading.unit.clear();  // x_1
+  if (column.unit.empty() && is_of_something(split)) heading.unit.clear();
   if (column.is_date) heading.unit = input::date_unit;
   const bool is_suffix = column.unit.empty() && !split.in_brackets && !column.is_date;
   const Words words = words_of(split.in_brackets ? split.before : std::string_view(column.heading()));
@@ -350,11 +311,11 @@ Heading heading_of(const UnknownColumn& column) {
   if (column.is_date) key = "time";
   // A current or a voltage that something reads: of what, no word says.
   if ((key == "command" || (key.empty() && key_of_unit(heading.unit) == "command")) &&
-      has_word(column.heading(), {"sensor", "transmitter", "transducer", "pump", "pumpe", "messumformer",
-                                  "aufnehmer", "signal"}))
+      names_an_instrument(column.heading()))
     return {nullptr, heading.unit, false, std::string(no_word)};
   if (key.empty() && !(is_suffix && heading.unit.size() < 2)) {
     key = key_of_unit(heading.unit);
+    if (key == "command") key = "";  // a gauge's 4 to 20 mA are no command
     if (!key.empty()) told = fmt::format("its unit {}", heading.unit);
   }
   if (column.is_date) told = "it holds dates";
@@ -374,8 +335,12 @@ Heading heading_of(const UnknownColumn& column) {
     heading.other_unit = contradicting(unit_of_part(split.behind), split.in_brackets, column.unit);
   if (column.unit.empty() && split.in_brackets && heading.unit.empty()) heading.unknown = split.behind;
   heading.times = times_in(column.heading());
+  if (heading.times.empty() && column.unit.empty()) heading.times = number_of_unit(split);
   static const Vocabulary lengths{"contraction", {"length", "länge", "laenge"}, {"länge"}};
   heading.is_length = !lengths.told_by(words).empty();
+  static const Vocabulary contractions{
+      "contraction", {"contraction", "contracción", "contração", "contrazione"}, {"kontraktion"}};
+  heading.is_contraction = !contractions.told_by(words).empty();
   return heading;
 }
 

@@ -18,6 +18,7 @@ struct Heading {
   bool unit_fits = false;                      ///< what is said can be a unit of the quantity
   std::string reason;                          ///< which words tell
   bool is_length = false;                      ///< the muscle's, which falls as it contracts
+  bool is_contraction = false;                 ///< which rises as the muscle contracts
   std::string other_unit{};  ///< the heading says another one than the line below it; empty: it does not
   std::string unknown{};     ///< in its brackets, and no unit that is known; empty: nothing
   std::string times{};  ///< of ten by which its numbers are scaled, as `x10` in `p x10 [bar]`; empty: none
@@ -31,6 +32,7 @@ inline constexpr std::string_view no_word = "neither its words nor its unit are 
 /// change within a run; of loads; of columns that say which quantity, or which of several sensors, a row
 /// holds; of row numbers; of an ADC.
 bool is_absolute(const std::string& name);
+bool names_an_instrument(const std::string& name);
 bool names_a_run(const std::string& name);
 bool names_a_start(const std::string& name);
 bool names_a_phase(const std::string& name);

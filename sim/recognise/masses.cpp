@@ -23,6 +23,28 @@ bool begins_a_number(const std::string& word) {
   return word.front() >= '0' && word.front() <= '9';
 }
 
+/// A mass beside which such a word stands hangs nowhere: the most that may, the next one, the muscle's own.
+bool is_of_another(const std::string& before, const std::string& behind) {
+  static const Words others{"max",         "maximum",      "maximal", "maximale", "up",       "limit",
+                            "rated",       "capacity",     "next",    "cal",      "calib",    "calibrated",
+                            "calibration", "kalibrierung", "tare",    "tara",     "muscle",   "muskel",
+                            "grease",      "lub",          "tank",    "person",   "operator", "own",
+                            "eigen",       "sensor",       "cell"};
+  const auto is_other = [](const std::string& word) { return is_any_of(word, others); };
+  const std::size_t comma = before.find_last_of(",;");  // what stands before it is about something else
+  const Words words = input::words_of(comma == std::string::npos ? before : before.substr(comma + 1)),
+              after = input::words_of(behind);
+  return std::ranges::any_of(words, is_other) || (!after.empty() && is_other(after[0]));
+}
+
+/// 5 in "5 to 20 kg", 20 there, 0.138 in "11 + 0.138 kg".
+bool is_a_part(const std::string& before, const std::string& behind) {
+  static const std::regex goes_before(R"([0-9] ?(kg|g|lb)? ?(\+|-|\xE2\x80\x93|to|bis|\.\.\.?) ?$)",
+                                      std::regex::icase),
+      goes_behind(R"(^ ?(\+|-|\xE2\x80\x93|to|bis|\.\.\.?) ?[0-9][0-9.,]* ?(kg|g|lb))", std::regex::icase);
+  return std::regex_search(before, goes_before) || std::regex_search(behind, goes_behind);
+}
+
 /// What stands around a mass calls it a load, a mass, or nothing.
 enum class Called { load, mass, nothing };
 Called called(const std::string& before, const std::string& behind) {
@@ -68,14 +90,20 @@ Masses masses_in(const std::string& text, bool is_name) {
     const std::string before = text.substr(0, number_at), behind = match.suffix();
     // Of grams only what stands by itself: run_250g_2, not exp2g nor 10g_sensor.
     const Words after = input::words_of(behind);
-    const bool apart = (before.empty() || std::isalpha(static_cast<unsigned char>(before.back())) == 0) &&
+    const Words words = input::words_of(before);
+    const bool apart = std::ranges::all_of(words,
+                                           [](const std::string& word) {
+                                             return begins_a_number(word) || word == "m" || word == "mass" ||
+                                                    names_a_run(word);
+                                           }) &&
                        (after.empty() || begins_a_number(after[0]) ||
                         names_a_run(after[0].substr(0, after[0].find_first_of("0123456789"))));
     const Called by = called(before, behind);
-    if (by == Called::load && !either)
+    const bool doubtful = either || is_of_another(before, behind) || is_a_part(before, behind);
+    if (by == Called::load && !doubtful)
       add(found.loads, mass);
     else
-      add(!either && (is_name ? unit != "g" || apart : by == Called::mass) ? plain.loads : plain.others,
+      add(!doubtful && (is_name ? unit != "g" || apart : by == Called::mass) ? plain.loads : plain.others,
           mass);
   }
   if (found.loads.empty()) return plain;
@@ -100,6 +128,8 @@ std::optional<LoadGuess> load_of(const UnknownTable& table) {
     for (const std::string& mass : found.others) add(others, mass);
     if (!found.loads.empty() && reason.empty()) reason = why;
   };
+  for (const std::string& part : table.part)
+    if (part.starts_with("sheet: ")) look(part.substr(part.find(' ') + 1), true, "its sheet's name says so");
   look(table.path.stem().string(), true, "the file's name says so");
   for (const std::string& line : table.remarks) look(line, false, "a line above its headings says so");
   if (loads.empty()) look(table.path.parent_path().filename().string(), true, "the folder's name says so");

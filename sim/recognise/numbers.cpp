@@ -51,6 +51,22 @@ Clock clock_of(const Values& time_s) {
   return clock;
 }
 
+std::size_t taking_turns(const Values& values) {
+  constexpr double much = 5.0;
+  constexpr std::size_t most = 4, least_rows = 20;
+  if (values.size() < least_rows) return 1;
+  const auto step = [&](std::size_t apart) {
+    Values steps;
+    for (std::size_t k = apart; k < values.size(); ++k)
+      if (const double by = std::abs(values[k] - values[k - apart]); !std::isnan(by)) steps.push_back(by);
+    return steps.empty() ? 0.0 : data::upper_median(std::move(steps));
+  };
+  const double next = step(1);
+  for (std::size_t apart = 2; apart <= most; ++apart)
+    if (much * step(apart) < next) return apart;
+  return 1;
+}
+
 Range range_of(const Values& values) {
   Range range{1e300, -1e300};
   for (const double value : values)

@@ -107,7 +107,8 @@ class Recogniser {
     }
     const ColumnGuess* contraction = first_map().find("contraction");
     const bool given = contraction == nullptr || contraction->input.has_value();
-    held_ = !any && first_map().find("force") != nullptr && (given || !rig_is_known_);
+    held_ = !any && first_map().find("force") != nullptr &&
+            (rig_is_known_ ? known_.holds_a_length || (given && contraction != nullptr) : true);
     if (held_) return;
     for (RunGuess& run : all_.runs)
       if (!run.load)
@@ -153,6 +154,7 @@ class Recogniser {
                               "that are wrong",
                               fall - seconds.begin() + 2, *fall - *(fall + 1)));
       if (!done.empty()) remark(i, done);
+      if (!done.empty()) turns(i);
       even = even && done.empty() && !all_.tables[i].reordered;  // only stamps can be mended
       const double allowed_s = even_s + even_ratio * (seconds.back() - clock.begin_s);
       even = even && clock.begin_s == 0.0 && clock.jitter_s <= allowed_s &&
@@ -169,6 +171,20 @@ class Recogniser {
       clock_ += fmt::format(" ({:.4g} to {:.4g} ms)", 1e3 * steps_s.low, 1e3 * steps_s.high);
     if (first_s != 0.0) clock_ += fmt::format(", begin at {:.6g} s and not at 0", first_s);
     if (even_) clock_ = fmt::format("all stamps are {:.6g} ms apart", 1e3 * step_s_);
+  }
+
+  /// Stamps that repeat because several records take turns are no coarse clock.
+  void turns(std::size_t run) {
+    const ColumnGuess* contraction = map_of_run(run).find("contraction");
+    const Values* values =
+        contraction == nullptr ? nullptr : column_of(all_.tables[run], contraction->column.value);
+    const std::size_t records = values == nullptr ? 1 : taking_turns(*values);
+    if (records == 1) return;
+    all_.tables[run].part.push_back(fmt::format("where: {}", domain::fill_in));
+    remark(run, fmt::format(
+                    "{} records take turns from row to row: where: {{COLUMN: VALUE}} of the column that says "
+                    "whose a row is, and a run for each; without one, put each into a file of its own",
+                    records));
   }
 
   /// What drives the rig must be known from a run's first row to its last, but for short gaps.
@@ -243,10 +259,10 @@ class Recogniser {
     const std::string unit = contraction == nullptr ? "" : contraction->unit.value;
     if (unit == "count" || (!unit.empty() && input::unit_problem(unit, "rad").empty()))
       set("joint.wheel_radius", left_open("of the wheel on which the cord lies"));
-    if (contraction != nullptr && contraction->zero && !contraction->zero->open())
+    if (contraction != nullptr && contraction->zero)
       set("joint.reading_offset",
           {"0 mm ± 1 mm", "the zero of " + contraction->column.value +
-                              " is a guess, and diagnose may move it by so much; less, if you know it"});
+                              " may be off, and diagnose may move it by so much; less, if you know it"});
     if (unit == "count") {
       set("sensors.contraction.kind", {"encoder", "counts were recorded"});
       set("sensors.contraction.pulses_per_turn", left_open("of the encoder's disk"));

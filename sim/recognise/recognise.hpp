@@ -69,6 +69,7 @@ struct Recognised {
 /// What a rig that is known tells of its tables; 0: nothing does.
 struct KnownRig {
   double tick_s = 0.0, rest_length_m = 0.0;
+  bool holds_a_length = false;
 };
 
 /// Reads and understands. `rig_is_known`: nothing is to be said of it. Throws MissingInput, BadInput.

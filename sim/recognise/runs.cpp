@@ -16,7 +16,6 @@
 #include <sim/input/cells.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/quantity.hpp>
-#include <sim/input/row_order.hpp>
 #include <sim/recognise/columns.hpp>
 #include <sim/recognise/headings.hpp>
 
@@ -285,7 +284,12 @@ std::vector<UnknownTable> cut_by_labels(const UnknownTable& table, const std::op
                                             each.column->name, &UnknownColumn::name);
       const Labels own(*column);
       const auto first = std::ranges::find_if_not(column->values, [](double one) { return std::isnan(one); });
-      if (own.count == 1 && !run.load) run.load = load_of(*column, *first);
+      if (own.count != 1) continue;
+      const std::optional<LoadGuess> load = load_of(*column, *first);
+      if (!run.load)
+        run.load = load;
+      else if (load && load->quantity != run.load->quantity)
+        run.load = LoadGuess{std::string(domain::fill_in), run.load->reason + "; and " + load->reason};
     }
     if (runs.size() > 1 || marks.size() == constant.size()) drop(run, marks);
   }
@@ -334,31 +338,6 @@ std::vector<UnknownTable> cut_by_lines(UnknownTable table) {
     if (i > 0 && i < lines.size()) part.part.push_back(since("to", end - 1));
   }
   return parts;
-}
-
-/// Rows as the clock of all of them says.
-void put_in_order(UnknownTable& table) {
-  const TimeGuess time = time_of(table);
-  if (!time.guess || time.guess->input) return;
-  for (UnknownColumn& column : table.columns)
-    if (column.name == time.guess->column.value || std::ranges::count(time.clocks, &column) > 0)
-      table.reordered = input::run_on(column.values) || table.reordered;
-  const UnknownColumn* stamps = table.find(time.guess->column.value);
-  if (stamps == nullptr || !time.clocks.empty()) return;
-  const auto same = [&](std::size_t row) {
-    const auto repeats = [&](const UnknownColumn& column) {
-      const double now = column.values[row], before = column.values[row - 1];
-      return &column == stamps || now == before || (std::isnan(now) && std::isnan(before));
-    };
-    return std::ranges::all_of(table.columns, repeats) && std::ranges::all_of(table.texts, repeats);
-  };
-  const input::RowOrder order = input::order_of_rows(stamps->values, same);
-  if (order.note.empty()) return;
-  UnknownTable some = table.rows(order.rows);
-  some.reordered = true;
-  const std::string at = order.first > 0 ? fmt::format(" (the first: row {})", order.first + 1) : "";
-  some.note += fmt::format("{}{}{}", some.note.empty() ? "" : "; ", order.note, at);
-  table = std::move(some);
 }
 
 }  // namespace

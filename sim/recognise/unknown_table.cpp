@@ -97,7 +97,7 @@ struct Growing {
     leave_out_marks();
     return true;
   }
-  /// -9999 and the like: whole numbers that come again, far beyond all others.
+  /// -9999 and the like: numbers that come again, far beyond all others.
   void leave_out_marks() {
     constexpr double far = 10.0;
     for (const bool low : {true, false}) {
@@ -107,7 +107,7 @@ struct Growing {
       std::ranges::replace(others, mark, std::nan(""));
       const Range rest = range_of(others);
       const double gap = low ? rest.low - mark : mark - rest.high;
-      if (mark != std::floor(mark) || std::ranges::count(column.values, mark) < 2 || rest.high == rest.low ||
+      if (std::ranges::count(column.values, mark) < 2 || rest.high == rest.low ||
           gap < far * (rest.high - rest.low) ||
           std::abs(mark) < far * std::max(std::abs(rest.low), std::abs(rest.high)))
         continue;

@@ -184,6 +184,7 @@ class Bench {
   }
   void expect_truth(const Kind& kind, std::string dataset) {
     dataset = std::regex_replace(dataset, std::regex("load: FILL_IN"), "load: 5 kg");
+    dataset = std::regex_replace(dataset, std::regex("zero: FILL_IN"), "zero: 3");
     ASSERT_EQ(std::regex_replace(dataset, std::regex("#[^\n]*"), "").find("FILL_IN"), std::string::npos)
         << dataset;
     if (dataset.find("start:") == std::string::npos) dataset += "start: settled\n";

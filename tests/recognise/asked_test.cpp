@@ -117,10 +117,16 @@ TEST_F(Asked, OfSeveralMassesTheOneThatAWordCallsALoad) {
   EXPECT_EQ(load("m0.5kg_payload_11.138kg.csv", ""), "11.138 kg");
   EXPECT_EQ(load("muscle20g_load11.138kg.csv", ""), "11.138 kg");
   EXPECT_EQ(load("a.csv", "# Mass: 5 kg\n"), "5 kg");
-  for (const char* candidate : {"# Muscle mass: 250 g\n", "# Accelerometer 2 g range\n",
-                                "# bench 2, max 20 kg\n", "# Spring 2 kg/m\n"})
+  for (const char* candidate :
+       {"# max. load 20 kg\n", "# Next load: 15 kg\n", "# Calibrated with 10 kg weight\n",
+        "# Tare weight 2 kg\n", "# Loads 5 kg to 20 kg\n", "# load 11 kg + 0.138 kg\n",
+        "# Muscle mass: 250 g\n", "# Accelerometer 2 g range\n", "# bench 2, max 20 kg\n",
+        "# Spring 2 kg/m\n"})
     EXPECT_EQ(load("a.csv", candidate), domain::fill_in) << candidate;
-  EXPECT_EQ(load("exp2g.csv", ""), domain::fill_in);
+  for (const char* name :
+       {"exp2g.csv", "max20kg_run1.csv", "sweep_5-20kg.csv", "DMSP-10-300N_85g.csv", "grease_5g_run.csv"})
+    EXPECT_EQ(load(name, ""), domain::fill_in) << name;
+  EXPECT_EQ(load("run_500g.csv", ""), "500 g");
   EXPECT_EQ(load("5kg.csv", "# load 7 kg\n"), domain::fill_in) << "they disagree";
   EXPECT_EQ(load("5kg.csv", "# load 5 kg\n"), "5 kg");
 }
@@ -272,6 +278,89 @@ TEST_F(Asked, ALineOfNamesAboveOneOfNamesAndUnits) {
       of("Zeit  1 - Standardmessrate\tMuskeldruck\tWeg\nZeit [s]\tDruck [bar]\tWeg [mm]\n", row);
   EXPECT_EQ(column(found, "time").unit.value, "s");
   EXPECT_EQ(column(found, "muscle_pressure").column.value, "Druck [bar]");
+}
+
+TEST_F(Asked, AMassAloneInARowIsTheTitleOfTheRowsBelow) {
+  for (const char* commas : {"", ",,"}) {
+    const auto row = [&](int k) {
+      return fmt::format("{}{:.3f},{:.3f},{:.2f}",
+                         k == 100 ? fmt::format("7 kg{}\nt_s,p_bar,x_mm\n", commas) : "", 0.012 * (k % 100),
+                         5 * drive(k), 10 * drive(k));
+    };
+    const Recognised found = of(fmt::format("5 kg{}\nt_s,p_bar,x_mm\n", commas), row, "runs.csv");
+    ASSERT_EQ(found.runs.size(), 2u);
+    EXPECT_EQ(found.runs[0].load->value, "5 kg");
+    EXPECT_EQ(found.runs[1].load->value, "7 kg");
+    EXPECT_EQ(found.tables[1].rows(), 100u);
+  }
+}
+
+TEST_F(Asked, UnitsThatAreNotTheLastWord) {
+  const auto row = [](int k) { return fmt::format("{},{:.3f},{:.3f}", k, 5 * drive(k), 10 * drive(k)); };
+  const auto guess = [&](const char* head, const char* key) { return column(of(head, row), key); };
+  EXPECT_TRUE(guess("Time in 10 ms,p_bar,x_mm\n", "time").factor->open());
+  EXPECT_EQ(guess("Seconds of day,p_bar,x_mm\n", "time").unit.value, "s");
+  EXPECT_TRUE(guess("t_s,Pressure in 100 kPa,x_mm\n", "muscle_pressure").factor->open());
+  EXPECT_TRUE(guess("t_s,Pressure in percent of 10 bar,x_mm\n", "muscle_pressure").unit.open());
+  EXPECT_TRUE(guess("t_s,Pressure * 100 (bar),x_mm\n", "muscle_pressure").factor->open());
+}
+
+TEST_F(Asked, WhatIsNoCommandAndNoPressureOfTheMuscle) {
+  const auto with = [&](const char* heading, auto&& reading) {
+    return of(fmt::format("t_s,Valve (mA),{},x_mm\n", heading), [&](int k) {
+      return fmt::format("{:.3f},{:.3f},{:.4f},{:.3f}", 0.012 * k, 4 + 12 * drive(k), reading(k),
+                         10 * drive(k));
+    });
+  };
+  const auto muscle = [](int k) { return 5 * drive(k); };
+  EXPECT_FALSE(column(with("p_bar", muscle), "muscle_pressure").column.open());
+  const Recognised supply =
+      with("P_sys (bar)", [](int k) { return 6.0 - 0.3 * drive(k - 5) + 0.01 * (k % 3); });
+  EXPECT_TRUE(column(supply, "muscle_pressure").column.open());
+  EXPECT_TRUE(holds(column(supply, "muscle_pressure").column.reason, "does not follow Valve (mA)"));
+  const auto sensor = [](int k) {
+    return fmt::format("{:.3f},{:.3f},{:.3f}", 0.012 * k, 4 + 12 * drive(k), 10 * drive(k));
+  };
+  EXPECT_TRUE(column(of("t_s,PT1 (mA),x_mm\n", sensor), "command").column.open());
+  const Recognised sags = of("t_s,p (bar),Contraction (mm)\n", [](int k) {
+    return fmt::format("{:.3f},{:.3f},{:.3f}", 0.012 * k, 6.0 - 0.9 * drive(k), 10 * drive(k));
+  });
+  EXPECT_TRUE(column(sags, "contraction").factor->open())
+      << "a contraction does not fall with the muscle's pressure";
+}
+
+TEST_F(Asked, TheZeroWhereTheMuscleIsNotEmpty) {
+  const auto from = [&](double lowest_bar) {
+    return column(of("t_s,p_bar,x_mm\n",
+                     [&](int k) {
+                       return fmt::format("{:.3f},{:.3f},{:.3f}", 0.012 * k, lowest_bar + 4 * drive(k),
+                                          3 + 10 * drive(k));
+                     }),
+                  "contraction")
+        .zero->value;
+  };
+  EXPECT_EQ(from(0.0), "3.056") << "the median of 2 % of its drive";
+  EXPECT_EQ(from(0.5), domain::fill_in);
+}
+
+TEST_F(Asked, RecordsThatTakeTurnsAreNoCoarseClock) {
+  const auto row = [](int k) {
+    const int n = k / 2;
+    return fmt::format("{:.3f},{},{:.3f},{:.3f}", 0.012 * n, 1 + k % 2, 5 * drive(n + 30 * (k % 2)),
+                       10 * drive(n + 30 * (k % 2)));
+  };
+  EXPECT_EQ(of("t_s,Node,p_bar,x_mm\n", row).tables[0].part, std::vector<std::string>{"where: FILL_IN"});
+}
+
+TEST_F(Asked, ExportsThatKnowNoOrderAreSorted) {
+  const auto row = [](int k) {
+    const int n = (k * 77) % 200;
+    return fmt::format("{:.3f},{:.3f},{:.3f}", 0.012 * n, 5 * drive(n), 10 * drive(n));
+  };
+  const Recognised found = of("t_s,p_bar,x_mm\n", row);
+  ASSERT_EQ(found.runs.size(), 1u);
+  EXPECT_TRUE(std::ranges::is_sorted(found.tables[0].columns[0].values));
+  EXPECT_EQ(start(found), "settled");
 }
 
 }  // namespace
