@@ -89,7 +89,7 @@ double PlantOf<P>::mechanical_energy_J(const State<double>& state, const Memory<
            lever_->spring().energy_J(stand.angle_rad) +
            weight_moment_N_m_ * (1.0 - std::cos(stand.angle_rad - lever_->hangs_at_rad));
   }
-  const double moving_J = cords_J + 0.5 * mass_kg_ * speed * speed + rig().joint.spring_energy_J(rise);
+  const double moving_J = cords_J + 0.5 * mass_kg_ * speed * speed + rig().joint.spring().energy_J(rise);
   if (!opposite_) return moving_J + weight_N() * length * state.joint.contraction_ratio;
   const double lean_rad = angle_rad(state.joint.contraction_ratio) - link_.hangs_at_rad;
   return moving_J + link_.mass_kg * gravity_m_per_s2 * link_.length_m * (1.0 - std::cos(lean_rad));

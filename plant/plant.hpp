@@ -51,7 +51,7 @@ class PlantOf {
   template <class S>
   S spring_force_N(const S& contraction_ratio) const {
     const S rise = rise_m(contraction_ratio);
-    if (!lever_) return -rig().joint.spring_force_N(rise);
+    if (!lever_) return -rig().joint.spring().pull(rise);
     const Stand<S> stand = turning_->at(rise);
     return -lever_->spring().pull(stand.angle_rad) / stand.arm_m;
   }

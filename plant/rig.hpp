@@ -97,12 +97,6 @@ struct JointOf {
   /// What returns the cord, over its rise.
   SpringOf<P> spring() const { return {spring_preload_N, spring_N_per_m, spring_ways}; }
   bool has_spring() const { return spring().is_there(); }
-  /// Force [N] of it on the cord at a rise [m], against it where positive; and its energy.
-  template <class S>
-  S spring_force_N(const S& rise_m) const {
-    return spring().pull(rise_m);
-  }
-  double spring_energy_J(double rise_m) const { return spring().energy_J(rise_m); }
   bool has_angle_stops() const {
     return any(lowest_rad > nowhere_rad[0]) || any(highest_rad < nowhere_rad[1]);
   }

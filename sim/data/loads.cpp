@@ -42,7 +42,7 @@ bool stands_still(const Series& measured, const Series& simulated, std::size_t k
 std::optional<Weighed> weigh(const plant::Rig& rig, const plant::Braid& braid, std::size_t index,
                              const domain::Run& run, const Expected& expected) {
   const auto carried_kg = [&](double contraction_ratio, std::size_t k) {
-    const double returned_N = rig.joint.spring_force_N(braid.rest_length_m() * contraction_ratio);
+    const double returned_N = rig.joint.spring().pull(braid.rest_length_m() * contraction_ratio);
     return (braid.force_N(contraction_ratio, expected.pressure_Pa[k]) - returned_N) / plant::gravity_m_per_s2;
   };
   if (run.load_kg == 0.0) return std::nullopt;                   // no label to be wrong

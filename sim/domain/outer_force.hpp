@@ -4,25 +4,35 @@
 
 namespace mckibben::domain {
 
-/// A force on the cord from outside, from an instant until the next of its list.
-struct OuterForce {
-  double at_s = 0.0, force_N = 0.0;
+/// From an instant until the next of its list.
+struct From {
+  double at_s = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("at", self.at_s, "s", 0.0, 3600.0, "from the first tick not before it");
+  }
+};
+
+/// A force on the cord from outside.
+struct OuterForce : From {
+  double force_N = 0.0;
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    From::fields(self, visit);
     visit.required("force", self.force_N, "N", -1e5, 1e5,
                    "positive lengthens the muscle, as a load does: 9.80665 N for a kilogram");
   }
 };
 
 /// The same of a joint with an angle.
-struct OuterTorque {
-  double at_s = 0.0, torque_N_m = 0.0;
+struct OuterTorque : From {
+  double torque_N_m = 0.0;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit.required("at", self.at_s, "s", 0.0, 3600.0, "from the first tick not before it");
+    From::fields(self, visit);
     visit.required("torque", self.torque_N_m, "N.m", -1e4, 1e4,
                    "positive where it turns as muscle 1 does that contracts");
   }

@@ -64,14 +64,14 @@ TEST(Mechanics, MusclesSideBySidePullTogetherAsOneEach) {
 
 TEST(Mechanics, ASpringOfOneWayOnlyPulls) {
   Joint joint{.spring_N_per_m = 4000.0, .spring_preload_N = -20.0};
-  EXPECT_DOUBLE_EQ(joint.spring_force_N(0.002), -12.0);
-  EXPECT_DOUBLE_EQ(joint.spring_force_N(0.010), 20.0);
-  EXPECT_DOUBLE_EQ(joint.spring_energy_J(0.010), 0.5 * 4000.0 * 1e-4 - 20.0 * 0.010);
+  EXPECT_DOUBLE_EQ(joint.spring().pull(0.002), -12.0);
+  EXPECT_DOUBLE_EQ(joint.spring().pull(0.010), 20.0);
+  EXPECT_DOUBLE_EQ(joint.spring().energy_J(0.010), 0.5 * 4000.0 * 1e-4 - 20.0 * 0.010);
   joint.spring_ways = SpringWays::one;
-  EXPECT_DOUBLE_EQ(joint.spring_force_N(0.002), 0.0);
-  EXPECT_DOUBLE_EQ(joint.spring_force_N(0.010), 20.0);
-  EXPECT_DOUBLE_EQ(joint.spring_energy_J(0.002), 0.0);
-  EXPECT_DOUBLE_EQ(joint.spring_energy_J(0.010), 0.5 * 4000.0 * 0.005 * 0.005);
+  EXPECT_DOUBLE_EQ(joint.spring().pull(0.002), 0.0);
+  EXPECT_DOUBLE_EQ(joint.spring().pull(0.010), 20.0);
+  EXPECT_DOUBLE_EQ(joint.spring().energy_J(0.002), 0.0);
+  EXPECT_DOUBLE_EQ(joint.spring().energy_J(0.010), 0.5 * 4000.0 * 0.005 * 0.005);
 }
 
 TEST(Mechanics, ALoadHangsWhereItPullsAndSomethingMoves) {
