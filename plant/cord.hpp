@@ -4,6 +4,8 @@
 // own: else T, which friction and effects make depend on u, would have to be solved for u at each instant.
 #pragma once
 
+#include <string_view>
+
 #include <plant/choose.hpp>
 
 namespace mckibben::plant {
@@ -14,6 +16,9 @@ struct CordOf {
   P stiffness_N_per_m = 0.0;
   P damping_N_s_per_m = 100.0;
   P end_mass_kg = 0.1;
+
+  /// What it is there by: no other key of it says anything without.
+  static constexpr std::string_view there_by = "stiffness";
 
   auto absent() const { return stiffness_N_per_m == 0.0; }
   /// What it pulls with [N].

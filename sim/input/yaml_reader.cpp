@@ -75,6 +75,11 @@ void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) 
   }
 }
 
+void ValueReader::check_there(std::string_view by) {
+  if (map_.find(by) == nullptr && !map_.children.empty())
+    broken_rule(map_.children.front().key, fmt::format("says nothing without {}: give that, too", by));
+}
+
 void ValueReader::broken_rule(std::string_view key, std::string_view message) {
   const Node* node = map_.find(key);
   const bool has_text = node != nullptr && node->kind == Node::Kind::scalar;

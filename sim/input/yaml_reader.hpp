@@ -92,6 +92,8 @@ class ValueReader {
   void require(std::string_view key);
   void check_unknown(std::span<const std::string_view> also_allowed);
   bool clean() const { return problems_.errors() == errors_before_; }
+  /// Keys of a part that is not there say nothing.
+  void check_there(std::string_view by);
   /// A rule that is broken: shown at the key's value, or at the whole map.
   void broken_rule(std::string_view key, std::string_view message);
 
@@ -243,6 +245,8 @@ void read_struct(const Source& source, const Node& node, T& into, Problems& prob
   if (!reader.is_map()) return;
   T::fields(into, reader);
   reader.check_unknown(also_allowed);
+  if constexpr (requires { T::there_by; })
+    if (into.absent()) reader.check_there(T::there_by);
   if constexpr (Resolved<T>) into.resolve();
   if constexpr (Ruled<T>) {
     const auto report = [&](std::string_view key, std::string_view message) {
