@@ -198,11 +198,11 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
 }
 
 std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
-  if (data.rig.pair() != nullptr) return loops_of({.pair = true});
+  if (data.rig.pair() != nullptr) return loops_of(data.rig, {.pair = true});
   if (data.rig.lever() != nullptr)
     return {{"asked", "Joint angle and commanded pressure", "reference_pressure", "angle",
              "commanded pressure in bar", "joint angle in deg", false, "reference_pressure", "given_angle"},
-            loops_of({}).front()};
+            loops_of(data.rig, {}).front()};
   if (data.judged() == diagnose::Judged::pressure)
     return {{"asked", "Pressure and commanded pressure", "reference_pressure", "muscle_pressure",
              "commanded pressure in bar", "pressure in bar", false, "reference_pressure",
@@ -213,7 +213,7 @@ std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
   return {{"asked", "Contraction and commanded pressure", "reference_pressure", "contraction_ratio",
            "commanded pressure in bar", std::string(ratio_unit), false, "reference_pressure",
            "given_contraction_ratio"},
-          loops_of({}).front()};
+          loops_of(data.rig, {}).front()};
 }
 
 }  // namespace

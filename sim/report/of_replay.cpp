@@ -115,7 +115,7 @@ Contents contents_of(const plant::Rig& rig, const run::Driven& driven) {
   if (driven.length) contents.rig.mechanics = plant::HeldLength{};
   contents.lengths = !rig.has_angle();
   contents.beside = std::string(beside_runs);
-  contents.loops = loops_of(driven);
+  contents.loops = loops_of(rig, driven);
   return contents;
 }
 

@@ -276,7 +276,7 @@ std::string report_html(const Scenario& scenario, const Comparison& comparison) 
                     .rig = scenario.rig,
                     .gauge = !pair && scenario.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
                     .plots = plots_of(scenario.rig, plots_for(scenario)),
-                    .loops = loops_of({.pair = pair})};
+                    .loops = loops_of(scenario.rig, {.pair = pair})};
   for (const run::Task& task : tasks_of(scenario))
     if (is_drawn(runs_of(scenario, comparison, task)))
       contents.groups.push_back(group_of(scenario, comparison, task));

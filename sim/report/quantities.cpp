@@ -95,12 +95,15 @@ std::vector<Quantity> quantities_of(const run::Recording& recording, const plant
   for (const plant::Channel& channel : plant::channels_of(rig, recording.driven))
     all.push_back({channel.key(), [rows, channel](std::size_t k) { return channel.on_page((*rows)[k]); }});
   if (recording.driven.pair) return all;
-  all.push_back({"friction_coefficient", [rows, braid = plant::Braid(rig.muscle)](std::size_t k) {
+  const plant::Muscle& muscle = rig.muscle;
+  all.push_back({"friction_coefficient", [rows, braid = plant::Braid(muscle), rigid = muscle.cord.absent(),
+                                          length_m = muscle.rest_length_m](std::size_t k) {
                    const run::Sample& row = (*rows)[k];
-                   const auto& joint = row.state.joint;
-                   const double normal_N = braid.contact_surface_m2(joint.contraction_ratio) *
+                   const double normal_N = braid.contact_surface_m2(row.contraction_ratio) *
                                            row.state.side.muscle_pressure_Pa;  // T 4.2
-                   const bool slides = std::abs(joint.contraction_speed_per_s) > least_speed_per_s;
+                   const double speed_per_s =
+                       rigid ? row.state.joint.contraction_speed_per_s : row.cord_end_m_per_s / length_m;
+                   const bool slides = std::abs(speed_per_s) > least_speed_per_s;
                    return !slides || normal_N < least_normal_N ? std::numeric_limits<double>::quiet_NaN()
                                                                : std::abs(row.friction_force_N) / normal_N;
                  }});
@@ -170,8 +173,9 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
   return plots;
 }
 
-std::vector<Loop> loops_of(const run::Driven& driven) {
+std::vector<Loop> loops_of(const plant::Rig& rig, const run::Driven& driven) {
   const std::string ratio(ratio_unit), angle = "joint angle in deg";
+  const std::string of_muscle = rig.muscle.cord.absent() ? "contraction_ratio" : "muscle_contraction_ratio";
   if (driven.pair)
     return {{"torque", "Joint angle and torque of both muscles", "angle", "torque", angle, "torque in N m"},
             {"tension_1", "Joint angle and force of cord 1", "angle", "tension_1", angle, "force in N"},
@@ -181,13 +185,12 @@ std::vector<Loop> loops_of(const run::Driven& driven) {
   if (driven.length || driven.force)
     return {{"force", "Force of the cord and contraction", "contraction_ratio", "force", ratio, "force in N"},
             pressure_loop()};
-  return {
-      pressure_loop(),
-      {"force", "Braid force and contraction", "contraction_ratio", "braid_force", ratio, "braid force in N"},
-      {"friction",
-       "Friction coefficient and contraction: friction of the threads for "
-       "each newton of normal force, while they slide",
-       "contraction_ratio", "friction_coefficient", ratio, "friction coefficient", true}};
+  return {pressure_loop(),
+          {"force", "Braid force and contraction", of_muscle, "braid_force", ratio, "braid force in N"},
+          {"friction",
+           "Friction coefficient and contraction: friction of the threads for "
+           "each newton of normal force, while they slide",
+           of_muscle, "friction_coefficient", ratio, "friction coefficient", true}};
 }
 
 std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair) {

@@ -37,7 +37,7 @@ struct PlotsOf {
 /// What a page is about comes first, with its error; then what made it.
 std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of);
 /// Loops of the cord's force where it is measured or a length is given.
-std::vector<Loop> loops_of(const run::Driven& driven);
+std::vector<Loop> loops_of(const plant::Rig& rig, const run::Driven& driven);
 
 /// The same of what is measured alone: position, currents, the pressures asked for by the valves' lines, and
 /// those of gauges where there are any.

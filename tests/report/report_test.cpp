@@ -106,7 +106,7 @@ Contents shaking(std::size_t groups, std::size_t ticks) {
       .table = "",
       .details = "",
       .plots = plots_of({}, {.title = "Target and contraction", .given = "Target", .error = "Error"}),
-      .loops = loops_of({})};
+      .loops = loops_of({}, {})};
   for (std::size_t g = 0; g < groups; ++g) {
     Group group{.name = "</script>", .ticks = ticks};
     const auto noise = [g](double seed) {
@@ -207,7 +207,7 @@ TEST(Still, AnAxisOfLengthsHasRoundNumbersInBothUnits) {
        .ticks = 2,
        .quantities = {{"contraction_ratio", [](std::size_t k) { return 0.1 * static_cast<double>(k); }},
                       {"muscle_pressure", [](std::size_t k) { return static_cast<double>(k); }}}});
-  const std::string svg = loop_svg(group, loops_of({}).front(), {}, 100);
+  const std::string svg = loop_svg(group, loops_of({}, {}).front(), {}, 100);
   const auto mm = svg.find("<g class='mm'>"), ratio = svg.find("<g class='ratio'>");
   ASSERT_LT(mm, ratio);
   ASSERT_NE(ratio, std::string::npos);
@@ -342,28 +342,45 @@ TEST(Still, LeavesOutALoopThatNoRunHas) {
   Group group{.name = "1 kg", .ticks = 2};
   group.runs.push_back(
       {.name = "pid", .ticks = 2, .quantities = {{"contraction_ratio", [](std::size_t) { return 0.1; }}}});
-  EXPECT_EQ(loop_svg(group, loops_of({}).front(), {}, 100), "");
+  EXPECT_EQ(loop_svg(group, loops_of({}, {}).front(), {}, 100), "");
+}
+
+AtTick friction_coefficient(const run::Recording& recording, const plant::Rig& rig) {
+  const auto all = quantities_of(recording, rig);
+  const auto found = std::ranges::find(all, "friction_coefficient", &Quantity::key);
+  return found != all.end() ? found->at : AtTick();
 }
 
 TEST(Quantities, FrictionCoefficientIsFrictionOverNormalForceWhileThreadsSlide) {
   run::Recording recording;
   run::Sample sample{};
   sample.state = {{0.1, 0.05}, {2e5, 2e5, 0.0}, {}};
+  sample.contraction_ratio = 0.1;
   sample.friction_force_N = -40.0;
   recording.samples.push_back(sample);
   sample.state.joint.contraction_speed_per_s = 0.0;
   recording.samples.push_back(sample);
-  for (const auto& quantity : quantities_of(recording, {})) {
-    if (quantity.key != "friction_coefficient") continue;
-    // T 4.3 by hand: 2 pi r0 l0 sin(a0) / ((1 - e) sqrt(1 - cos2(a0) (1 - e)^2)), e = 0.1, 2 bar
-    const double a0 = 20.0 * std::acos(-1.0) / 180.0, c = std::cos(a0);
-    const double surface_m2 =
-        2.0 * std::acos(-1.0) * 7.5e-3 * 0.3 * std::sin(a0) / (0.9 * std::sqrt(1.0 - c * c * 0.81));
-    EXPECT_NEAR(quantity.at(0), 40.0 / (surface_m2 * 2e5), 1e-9);
-    EXPECT_TRUE(std::isnan(quantity.at(1)));
-    return;
-  }
-  FAIL() << "no friction coefficient";
+  const AtTick at = friction_coefficient(recording, {});
+  ASSERT_TRUE(at);
+  // T 4.3 by hand: 2 pi r0 l0 sin(a0) / ((1 - e) sqrt(1 - cos2(a0) (1 - e)^2)), e = 0.1, 2 bar
+  const double a0 = 20.0 * std::acos(-1.0) / 180.0, c = std::cos(a0);
+  const double surface_m2 =
+      2.0 * std::acos(-1.0) * 7.5e-3 * 0.3 * std::sin(a0) / (0.9 * std::sqrt(1.0 - c * c * 0.81));
+  EXPECT_NEAR(at(0), 40.0 / (surface_m2 * 2e5), 1e-9);
+  EXPECT_TRUE(std::isnan(at(1)));
+
+  // Of a muscle on a cord, whose joint stands elsewhere and still: by its own stroke.
+  plant::Rig on_cord;
+  on_cord.muscle.cord.stiffness_N_per_m = 2e4;
+  run::Sample& last = recording.samples.back();
+  last.state.joint.contraction_ratio = 0.05;
+  last.cord_end_m_per_s = 0.05 * 0.3;
+  EXPECT_EQ(friction_coefficient(recording, on_cord)(1), at(0));
+  last.cord_end_m_per_s = 0.0;
+  last.state.joint.contraction_speed_per_s = 0.05;
+  EXPECT_TRUE(std::isnan(friction_coefficient(recording, on_cord)(1)));
+  EXPECT_EQ(loops_of(on_cord, {}).back().x, "muscle_contraction_ratio");
+  EXPECT_EQ(loops_of({}, {}).back().x, "contraction_ratio");
 }
 
 }  // namespace
