@@ -22,6 +22,7 @@ struct RandomRide {
     plan.ticks = static_cast<std::size_t>(std::clamp(5.0 / rig.tick_s, 50.0, 600.0));
     plan.keep_ledger = true;
     current.samples_mA = plant::random_current(chance, plan.ticks, rig.dac.largest_command);
+    plant::draw_cord(chance, plan.rig.muscle, rig.friction.memory);
   }
 };
 

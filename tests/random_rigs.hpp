@@ -106,7 +106,7 @@ struct Shuffle {
     } else if constexpr (AnEffect<T>) {
       if (chance.pick(one_in) == 0) shuffle_effect(value);
     } else if constexpr (std::is_same_v<T, ValveKind>) {  // of a regulator more must be said
-    } else if constexpr (std::is_same_v<T, Cord>) {       // tests of its own, engine/cord_test.cpp
+    } else if constexpr (std::is_same_v<T, Cord>) {       // draw_cord
     } else if constexpr (std::is_same_v<T,
                                         Sensors>) {  // an encoder, and a gauge or none; no law knows others
       Sensor::fields(value.position(), *this);
@@ -160,6 +160,15 @@ inline LoadedRig random_rig(Chance& chance, bool whole_range) {
     const double hung_kg = load_kg + rig.joint.load_offset_kg;
     if (hung_kg > 0.0 && hung_kg <= Braid(rig.muscle).largest_load_kg()) return {rig, load_kg};
   }
+}
+
+/// One rig in three hangs its load on a cord that stretches, where its threads may: drawn last, so that all
+/// else of a seed is as without.
+inline void draw_cord(Chance& chance, Muscle& muscle, FrictionMemory threads) {
+  if (threads == FrictionMemory::coulomb || chance.pick(3) > 0) return;
+  muscle.cord = {.stiffness_N_per_m = chance.log_between(5e3, 1e6),
+                 .damping_N_s_per_m = chance.log_between(10.0, 1e3),
+                 .end_mass_kg = chance.log_between(0.01, 1.0)};
 }
 
 /// Jumps, ramps and rests in any order.

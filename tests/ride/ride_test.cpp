@@ -62,6 +62,45 @@ TEST(Ride, SetsOffWhereALoadStandsAndNotWhereItIsRead) {
   EXPECT_NEAR(ride.reading().wheel_m, 0.021, 1e-12);
 }
 
+// Of a rig on a cord position, speed, acceleration and pressure are seen: the cord is as long as they ask
+// for, and the load goes on as it did.
+TEST(Ride, SetsOffWithACordThatIsStretchedAsItsLoadHangs) {
+  plant::Rig rig;
+  rig.muscle.cord = {.stiffness_N_per_m = 2e4, .damping_N_s_per_m = 300.0};
+  rig.effects.get<plant::GuideFriction>().coefficient = 0.03;
+  const Loaded loaded{rig, load_kg};
+  const auto pressed = [](int k) {
+    Drive drive;
+    drive.muscle_pressure_Pa = 3e5 - 1.5e5 * std::cos(0.05 * k);
+    return drive;
+  };
+  for (const int from : {50, 75, 110}) {  // on its way up, near the top, on its way down
+    SCOPED_TRACE(from);
+    Ride ride(loaded, {solver::Method::erk, 1e-9}), other(loaded, {solver::Method::erk, 1e-9});
+    ride.start(pressed(0), 0.0);
+    for (int k = 0; k < from; ++k) ride.step(pressed(k + 1), tick_s * (k + 1));
+    const double length_m = rig.muscle.rest_length_m;
+    const plant::JointState<double> joint = ride.flow().state.joint;
+    const double acceleration_m_per_s2 = ride.moment().acceleration_m_per_s2;
+    other.start(pressed(from), tick_s * from);
+    set_off(other.rider(), {.rise_m = length_m * joint.contraction_ratio,
+                            .speed_m_per_s = length_m * joint.contraction_speed_per_s,
+                            .acceleration_m_per_s2 = acceleration_m_per_s2});
+    EXPECT_NEAR(other.moment().acceleration_m_per_s2, acceleration_m_per_s2, 1e-9);
+    const double stretch_m = other.flow().memory.side[plant::cord_stretch];
+    EXPECT_NEAR(2e4 * stretch_m, ride.moment().cord_force_N(), 1e-6);
+    EXPECT_NEAR(stretch_m, load_kg * plant::gravity_m_per_s2 / 2e4, 4e-4);  // the guide rubs with 3 % of that
+    double furthest_m = 0.0;
+    for (int k = from; k < from + 80; ++k) {
+      ride.step(pressed(k + 1), tick_s * (k + 1));
+      other.step(pressed(k + 1), tick_s * (k + 1));
+      furthest_m = std::max(furthest_m, length_m * std::abs(ride.flow().state.joint.contraction_ratio -
+                                                            other.flow().state.joint.contraction_ratio));
+    }
+    EXPECT_LT(furthest_m, 5e-5);
+  }
+}
+
 TEST(Ride, GoesOnToTheSameBitsFromWhatWasSavedAndAsACopy) {
   for (const auto method : {solver::Method::erk, solver::Method::cvode, solver::Method::automatic})
     for (const auto memory : {plant::FrictionMemory::lugre, plant::FrictionMemory::coulomb})
