@@ -130,8 +130,8 @@ class Gathering {
   template <class Priors>
   void usual(const Priors& priors) {
     for (const Prior& prior : priors) {
-      const bool of_a_lever = rig_.lever() != nullptr && prior.path == "joint.load_offset";
-      if (rig_.has_angle() && prior.of_hanging_load() && !of_a_lever) continue;
+      if (prior.of == Prior::Of::hanging_load && rig_.has_angle()) continue;
+      if (prior.of == Prior::Of::load && rig_.pair() != nullptr) continue;
       for (const Standing& one : standings(rig_, std::string(prior.path), stated_))
         if (const double* value = domain::find_number(rig_, one.path).value)  // not every rig has a regulator
           add(one, prior.relative * std::abs(*value) + prior.absolute);

@@ -21,8 +21,7 @@ struct PredictThresholds {
 struct Prior {
   std::string_view path;
   double relative, absolute;  ///< standard deviation; absolute in the parameter's unit
-
-  bool of_hanging_load() const { return path.starts_with("joint."); }
+  enum class Of { any, load, hanging_load } of = Of::any;  ///< joints that have it
 };
 struct ParameterThresholds {
   /// Machined lengths are known to a per cent, catalogue conductances, friction and springs to ten, trimmed
@@ -40,10 +39,10 @@ struct ParameterThresholds {
                                 {"valve.natural_frequency", 0.3, 0.0},
                                 {"valve.damping", 0.3, 0.0},
                                 {"hose.conductance", 0.1, 0.0},
-                                {"joint.guide_damping", 0.2, 0.0},
-                                {"joint.load_offset", 0.0, 0.05},
-                                {"joint.spring", 0.1, 0.0},
-                                {"joint.spring_preload", 0.1, 0.0}}};
+                                {"joint.guide_damping", 0.2, 0.0, Prior::Of::hanging_load},
+                                {"joint.load_offset", 0.0, 0.05, Prior::Of::load},
+                                {"joint.spring", 0.1, 0.0, Prior::Of::hanging_load},
+                                {"joint.spring_preload", 0.1, 0.0, Prior::Of::hanging_load}}};
   /// Of a pair besides: how its muscles are mounted to a millimetre of 0.3 m, angles to a degree, a link's
   /// length and inertia to what a ruler and a drawing say.
   std::array<Prior, 6> pair_priors{{{"mechanics.contraction_1", 0.0, 0.003},

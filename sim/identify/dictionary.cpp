@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -85,6 +86,35 @@ Entry entry_of(const diagnose::Candidate& c, const plant::Rig& rig) {
   return entry;
 }
 
+/// Whether a file with this rig is read, for these data.
+bool is_read(const domain::Dataset& data, const plant::Rig& rig) {
+  const auto hangs = [&](const domain::Run& run) {
+    return !rig.lifts_a_load() || (run.measured && run.measured->gives_outer_force()) ||
+           rig.can_hang(run.load_kg);
+  };
+  return domain::broken_rule(rig).empty() && std::ranges::all_of(data.runs, hangs);
+}
+
+/// Its range ends where no file would be read, all else as described.
+void keep_readable(const domain::Dataset& data, diagnose::Parameter& p) {
+  plant::Rig rig = data.rig;
+  if (!is_read(data, rig)) return;
+  const auto reads = [&](double value) {
+    p.put(rig, value);
+    return is_read(data, rig);
+  };
+  for (double* end : {&p.lowest, &p.highest}) {
+    const double near_it = std::lerp(*end, p.origin, 0.01);  // 0 alone may say that there is none
+    if (reads(*end) && reads(near_it)) continue;
+    double inside = p.origin;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = std::midpoint(inside, *end);
+      (reads(middle) ? inside : *end) = middle;
+    }
+    *end = inside;
+  }
+}
+
 constexpr std::size_t wave_pairs = 14, rub_places = 8;
 
 }  // namespace
@@ -114,6 +144,7 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
     const diagnose::Found found = diagnose::find(described_, p.path);
     p.lowest = found.lowest;
     p.highest = found.highest;
+    keep_readable(data, p);
     parameters.push_back({p});
   }
   for (std::size_t i = 0, shared = parameters.size(); i < shared; ++i) {

@@ -81,20 +81,34 @@ class Estimating {
     return p.both_sides ? std::vector{p.path, other} : std::vector{p.path};
   }
 
+  struct Ends {
+    double lowest, highest;
+  };
+  /// Of what a file may say.
+  Ends ends_of(const Dictionary::Free& p) {
+    if (!p.difference) return {p.lowest, p.highest};
+    const diagnose::Found found = diagnose::find(result_.rig, paths_of(p).front());
+    return {found.lowest, found.highest};
+  }
+
   void round_parameters() {
-    std::map<std::string, double> finest;
+    struct Rounding {
+      double off;
+      Ends ends;
+    };
+    std::map<std::string, Rounding> finest;
     for (Index j = 0; j < std::ssize(list_); ++j) {
       if (list_[static_cast<std::size_t>(j)].kind != Kind::parameter || v_[j] == 0.0) continue;
       const auto& p = parameter(j);
       if (of_bench(p)) continue;
       for (const std::string& path : paths_of(p)) {
-        const auto known = finest.emplace(path, p.scale * alone(j)).first;
-        known->second = std::min(known->second, p.scale * alone(j));
+        Rounding& known = finest.emplace(path, Rounding{p.scale * alone(j), ends_of(p)}).first->second;
+        known.off = std::min(known.off, p.scale * alone(j));
       }
     }
-    for (const auto& [path, off] : finest) {
-      const diagnose::Found found = diagnose::find(result_.rig, path);
-      *found.value = std::clamp(with_digits(*found.value, off), found.lowest, found.highest);
+    for (const auto& [path, rounding] : finest) {
+      double& value = *diagnose::find(result_.rig, path).value;
+      value = std::clamp(with_digits(value, rounding.off), rounding.ends.lowest, rounding.ends.highest);
     }
   }
 
@@ -175,16 +189,17 @@ class Estimating {
           std::max(model_.covariance(i, i) + model_.covariance(j, j) + 2.0 * model_.covariance(i, j), 0.0));
     }
     const diagnose::Found found = diagnose::find(result_.rig, path);
+    const Ends ends = ends_of(p);
     const double value = *found.value, half = half_95 * p.scale * off;
     diagnose::Moved moved{.fitted = {.name = path,
                                      .unit = std::string(found.unit),
                                      .value = value,
-                                     .low = std::max(from + p.scale * z - half, found.lowest),
-                                     .high = std::min(from + p.scale * z + half, found.highest),
+                                     .low = std::max(from + p.scale * z - half, ends.lowest),
+                                     .high = std::min(from + p.scale * z + half, ends.highest),
                                      .determined = determined(j)},
                           .nominal = from,
                           .deviations = z,
-                          .at_the_edge = value <= found.lowest || value >= found.highest};
+                          .at_the_edge = value <= ends.lowest || value >= ends.highest};
     if (const auto stated = result_.rig.spreads.find(path); stated != result_.rig.spreads.end())
       stated->second =
           domain::significant(p.scale * off, 2);  // as well as these runs tell it, where the file told it

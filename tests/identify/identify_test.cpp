@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/identify/estimates.hpp>
 #include <sim/identify/identify.hpp>
 
 #include "diagnose/planted.hpp"
@@ -64,6 +65,83 @@ TEST(Descent, EndsInOnePlaceWhereverItBegins) {
               3.0 * std::sqrt(model.covariance(radius, radius)));
   }
   EXPECT_LT(std::ranges::max(ends) - std::ranges::min(ends), 0.5);
+}
+
+Dictionary::Free free_of(const domain::Dataset& data, const std::string& path) {
+  const auto all = Dictionary(data, 0.0).parameters;
+  return *std::ranges::find(all, path, &Dictionary::Free::path);
+}
+
+// What could pull upwards, a cord softer than any, a link lighter in its turning than its mass allows.
+TEST(Dictionary, NumbersGoAsFarAsAFileIsReadWithTheData) {
+  domain::Dataset data;
+  for (const double load_kg : {3.0, 0.1}) {
+    data.runs.emplace_back().load_kg = load_kg;
+    data.runs.back().contraction_ratio = {0.0, 0.1};
+  }
+  data.rig.spreads = {{"joint.load_offset", 0.5}, {"muscle.cord.stiffness", 1e4}};
+  data.rig.muscle.cord.stiffness_N_per_m = 2e4;
+  EXPECT_NEAR(free_of(data, "joint.load_offset").lowest, -0.1, 1e-9);
+  EXPECT_TRUE(data.rig.can_hang(0.1 + free_of(data, "joint.load_offset").lowest));
+  EXPECT_EQ(free_of(data, "joint.load_offset").highest, 5.0);
+  EXPECT_NEAR(free_of(data, "muscle.cord.stiffness").lowest, 1e3, 1e-6);
+  EXPECT_EQ(free_of(data, "muscle.rest_radius").lowest, 5e-4);
+
+  data.rig.mechanics = plant::Lever{};
+  for (domain::Run& run : data.runs) run.angle_rad = {0.0, 1.0}, run.contraction_ratio.clear();
+  EXPECT_NEAR(free_of(data, "joint.load_offset").lowest, -0.1, 1e-9);
+  data.rig.spreads = {{"mechanics.inertia", 0.01}};
+  EXPECT_NEAR(free_of(data, "mechanics.inertia").lowest, 1.0 * 0.15 * 0.15, 1e-9);
+}
+
+/// The rig's parameters fitted to two runs of four seconds, without a search for more.
+Estimates recalibrated(const plant::Rig& truth, const plant::Rig& nominal, double load_kg) {
+  auto currents = diagnose::three_kinds();
+  currents.pop_back();
+  for (auto& current : currents) current.duration_s = 4.0;
+  const Study study(diagnose::planted(truth, {load_kg}, currents, 7, nominal), {.threads = 2});
+  const Error error(study.rows,
+                    study.simulator.wander(study.dictionary.setting(study.dictionary.described())));
+  Model model(study.problem, study.dictionary.nominal(), error);
+  model.look();
+  model.settle({});
+  EXPECT_TRUE(std::isfinite(model.evidence()));
+  return estimates_of(model);
+}
+
+diagnose::FittedNumber fitted(const Estimates& all, const std::string& path) {
+  for (const diagnose::Moved& moved : all.moved)
+    if (moved.fitted.name == path) return moved.fitted;
+  return {};
+}
+
+TEST(Estimates, FindACordThatIsSofterThanWasSaid) {
+  plant::Rig truth;
+  truth.muscle.cord.stiffness_N_per_m = 15000.0;
+  plant::Rig nominal = truth;
+  nominal.muscle.cord.stiffness_N_per_m = 20000.0;
+  nominal.spreads = {{"muscle.cord.stiffness", 1e4}};
+  const Estimates found = recalibrated(truth, nominal, 16.138);
+  const diagnose::FittedNumber stiffness = fitted(found, "muscle.cord.stiffness");
+  EXPECT_TRUE(stiffness.determined);
+  EXPECT_NEAR(stiffness.value, 15000.0, 300.0);
+  EXPECT_LT(stiffness.low, 15000.0);
+  EXPECT_GT(stiffness.high, 15000.0);
+  EXPECT_EQ(found.rig.muscle.cord.stiffness_N_per_m, stiffness.value);
+}
+
+// Loads of 0.1 kg stand for nothing that hangs.
+TEST(Estimates, IntervalsEndWhereALoadWouldPullUpwards) {
+  plant::Rig truth;
+  truth.joint.load_offset_kg = -0.1;
+  plant::Rig nominal;
+  nominal.spreads = {{"joint.load_offset", 0.5}};
+  const diagnose::FittedNumber offset = fitted(recalibrated(truth, nominal, 0.1), "joint.load_offset");
+  EXPECT_NEAR(offset.low, -0.1, 1e-9);
+  EXPECT_GE(0.1 + offset.low, 0.0);
+  EXPECT_GE(0.1 + offset.value, 0.0);
+  EXPECT_NEAR(offset.value, -0.1, 0.01);
+  EXPECT_GT(offset.high, -0.1);
 }
 
 TEST(Simulator, ASettingThatCannotGoOnLeavesTheOthers) {
