@@ -17,24 +17,6 @@ const PairKnowledge& pair_of(const Knowledge& known) {
 
 }  // namespace
 
-double ratio_per_rad(const Knowledge& known) {
-  return pair_of(known).wheel_radius_m / known.model.rest_length_m;
-}
-
-std::optional<double> JointTerms::fastest_load_per_s(const Knowledge& known) const {
-  if (!fastest_joint_rad_per_s) return std::nullopt;
-  return *fastest_joint_rad_per_s * ratio_per_rad(known);
-}
-
-Knowledge JointTerms::within_angles(Knowledge known) const {
-  const double per_rad = ratio_per_rad(known);
-  for (double& ratio : known.target) {
-    if (lowest_angle_rad) ratio = std::max(ratio, *lowest_angle_rad * per_rad);
-    if (highest_angle_rad) ratio = std::min(ratio, *highest_angle_rad * per_rad);
-  }
-  return known;
-}
-
 CoContraction::CoContraction(const JointTerms& terms, const Knowledge& known)
     : terms_(terms),
       known_(known),
@@ -97,12 +79,12 @@ std::optional<double> CoContraction::wanted_N_m_per_rad(std::int64_t tick) const
 }
 
 double CoContraction::of_muscle_1(double ratio) const {
-  const double radius_m = pair_.wheel_radius_m, l0_m = known_.model.rest_length_m;
+  const double radius_m = known_.wheel_radius_m, l0_m = known_.model.rest_length_m;
   return radius_m * radius_m / l0_m * known_.model.force_drop_N(pair_.mounted_ratio + ratio, 1.0);
 }
 
 double CoContraction::of_muscle_2(double ratio) const {
-  const double radius_m = pair_.wheel_radius_m, l0_m = pair_.opposite.rest_length_m;
+  const double radius_m = known_.wheel_radius_m, l0_m = pair_.opposite.rest_length_m;
   const double stretched = ratio * known_.model.rest_length_m / l0_m;
   return radius_m * radius_m / l0_m *
          pair_.opposite.force_drop_N(pair_.opposite_mounted_ratio - stretched, 1.0);

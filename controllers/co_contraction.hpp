@@ -4,50 +4,26 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <optional>
 
+#include <controllers/angle_terms.hpp>
 #include <controllers/controller.hpp>
 #include <controllers/current_range.hpp>
 
 namespace mckibben::controllers {
 
-/// What is asked of every controller of a pair besides its own terms; no limits unless given.
-struct JointTerms {
+/// What is asked of every controller of a pair besides its own terms.
+struct JointTerms : AngleTerms {
   std::optional<double> co_contraction_Pa = std::nullopt;
-  std::optional<double> largest_current_speed_mA_per_s = std::nullopt;
-  std::optional<double> lowest_angle_rad = std::nullopt, highest_angle_rad = std::nullopt;
-  std::optional<double> fastest_joint_rad_per_s = std::nullopt;
-
-  /// With targets cut at the angles that are allowed.
-  Knowledge within_angles(Knowledge known) const;
-  /// `fastest_joint` as contraction ratio.
-  std::optional<double> fastest_load_per_s(const Knowledge& known) const;
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    constexpr double turn_rad = 2.0 * std::numbers::pi;
     visit("co_contraction", self.co_contraction_Pa, "Pa", 0.0, 1e7,
           "P0 that is held; if absent, what nominal muscles take for the wanted stiffness, or the middle of "
           "the valves' pressures where none is wanted");
-    visit("largest_command_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
-          "how fast each command may change; at once if absent");
-    visit("lowest_angle", self.lowest_angle_rad, "rad", -turn_rad, turn_rad,
-          "joint angle at which a lower target is cut");
-    visit("highest_angle", self.highest_angle_rad, "rad", -turn_rad, turn_rad,
-          "joint angle at which a higher target is cut");
-    visit("fastest_joint", self.fastest_joint_rad_per_s, "rad/s", 1e-2, 1e4,
-          "speed that the joint never has: counts that jump further from tick to tick are rejected");
-  }
-  template <class Report>
-  void rules(Report& report) const {
-    if (lowest_angle_rad && highest_angle_rad && *highest_angle_rad <= *lowest_angle_rad)
-      report("highest_angle", "must be above lowest_angle");
+    AngleTerms::fields(self, visit);
   }
 };
-
-/// Contraction ratio of muscle 1 for each radian of the joint. Throws std::invalid_argument for one muscle.
-double ratio_per_rad(const Knowledge& known);
 
 /// A difference is told as the change of the current to muscle 1 that asks for it.
 class CoContraction {

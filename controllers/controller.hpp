@@ -65,14 +65,13 @@ struct ValveLine {
 struct PairKnowledge {
   ForceModel opposite;
   ValveLine opposite_valve;
-  double wheel_radius_m = 0.0;
   double mounted_ratio = 0.0, opposite_mounted_ratio = 0.0;  ///< e10, e20
   /// Stiffness of the joint wanted at each tick, its last value after it; empty if none is asked for.
   std::vector<double> stiffness_N_m_per_rad;
 };
 
-/// What a controller is told on paper before the run. Contraction ratios are of muscle 1; of a pair they
-/// count from joint angle 0: R theta/l0.
+/// What a controller is told on paper before the run. Contraction ratios are of muscle 1; of a pair or a
+/// lever they count from joint angle 0: R theta/l0.
 struct Knowledge {
   double contraction_per_count = 0.0;
   double middle_of_count = 0.5;  ///< counts by which a position is more than its reading, on average
@@ -83,6 +82,7 @@ struct Knowledge {
   ValveLine valve;
   std::optional<double> load_kg{};  ///< that hangs; for controllers that ask to be told
   Reach reach;                      ///< what the hardware can follow; empty where nobody computed it
+  double wheel_radius_m = 0.0;      ///< R, where the joint's angle is read; 0 of a hanging load
   std::optional<PairKnowledge> pair{};
 
   /// Contraction ratio wanted at `tick`; 0 where there is no target.

@@ -44,7 +44,7 @@ PidTerms followed(PidTerms terms, const Knowledge& knowledge) {
 
 void PidSettings::follow(const CurrentRange& range) {
   PidTerms::follow(range);
-  if (!rest_current_mA) rest_current_mA = lowest_current_mA;
+  RestTerms::follow(*this);
 }
 
 PidLoop::PidLoop(const PidTerms& terms, const Knowledge& knowledge)

@@ -97,11 +97,31 @@ class PidLoop {
   double y_before_ = 0.0, I_mA_ = 0.0, D_mA_ = 0.0, output_mA_ = 0.0;
 };
 
+/// Around which current a PID works.
+struct RestTerms {
+  std::optional<double> rest_current_mA = std::nullopt;
+
+  void follow(const OutputLimits& limits) {
+    if (!rest_current_mA) rest_current_mA = limits.lowest_current_mA;
+  }
+
+  template <class Self, class Visitor>
+  static void fields(Self& self, Visitor& visit) {
+    visit("rest_command", self.rest_current_mA, "mA", 0.0, 100.0,
+          "command before the first reading, and output without error; lowest_command if absent");
+  }
+  template <class Report>
+  void rules(Report& report, const OutputLimits& limits) const {
+    if (rest_current_mA && ((limits.lowest_current_mA && *rest_current_mA < *limits.lowest_current_mA) ||
+                            (limits.highest_current_mA && *rest_current_mA > *limits.highest_current_mA)))
+      report("rest_command", "must lie between lowest_command and highest_command");
+  }
+};
+
 /// The PID around a fixed current.
-struct PidSettings : PidTerms {
+struct PidSettings : PidTerms, RestTerms {
   static constexpr std::string_view kind = "pid";
   std::string name{kind};
-  std::optional<double> rest_current_mA = std::nullopt;
 
   void follow(const CurrentRange& range);
   /// Throws std::invalid_argument if a gain is missing.
@@ -111,15 +131,12 @@ struct PidSettings : PidTerms {
   static void fields(Self& self, Visitor& visit) {
     visit("name", self.name, "name in tables and file names");
     PidTerms::fields(self, visit);
-    visit("rest_command", self.rest_current_mA, "mA", 0.0, 100.0,
-          "command before the first reading, and output without error; lowest_command if absent");
+    RestTerms::fields(self, visit);
   }
   template <class Report>
   void rules(Report& report) const {
     PidTerms::rules(report);
-    if (rest_current_mA && ((lowest_current_mA && *rest_current_mA < *lowest_current_mA) ||
-                            (highest_current_mA && *rest_current_mA > *highest_current_mA)))
-      report("rest_command", "must lie between lowest_command and highest_command");
+    RestTerms::rules(report, *this);
   }
 };
 

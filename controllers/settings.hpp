@@ -13,6 +13,7 @@
 #include <controllers/controller.hpp>
 #include <controllers/external.hpp>
 #include <controllers/feedforward_pid.hpp>
+#include <controllers/lever_pid.hpp>
 #include <controllers/model_inverse.hpp>
 #include <controllers/open_loop.hpp>
 #include <controllers/open_loop_limited.hpp>
@@ -31,12 +32,15 @@ using SingleSettings =
                  StaticInverseSettings, ModelInverseSettings, ModelInverseFeedbackSettings, ExternalSettings,
                  PluginSettings, SineCurrent, TriangleCurrent, StepCurrent, StairCurrent, ChirpCurrent,
                  RecordedCurrent>;
+/// Of one muscle that turns a lever.
+using LeverSettings = std::variant<LeverPidSettings, ExternalSettings, PluginSettings, SineCurrent,
+                                   TriangleCurrent, StepCurrent, StairCurrent, ChirpCurrent, RecordedCurrent>;
 /// Of two muscles that turn a joint.
 using PairSettings =
     std::variant<PairPidSettings, PairModelInverseSettings, PairModelInverseFeedbackSettings>;
 
 template <class... Ones, class... Pairs>
-std::variant<Ones..., Pairs...> joined(std::variant<Ones...>, std::variant<Pairs...>);
+std::variant<Ones..., LeverPidSettings, Pairs...> joined(std::variant<Ones...>, std::variant<Pairs...>);
 using Settings = decltype(joined(SingleSettings(), PairSettings()));
 
 template <class One, class Variant>

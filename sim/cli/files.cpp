@@ -210,12 +210,13 @@ std::string reference_page() {
                              {"Rig", input::list_fields<plant::Rig>()},
                              {"Data set", input::list_fields<domain::Dataset>()},
                              {"Pair", input::list_fields(domain::pair_scenario())},
+                             {"Lever", input::list_fields(domain::lever_scenario())},
                              {"Hypothesis", input::hypothesis_fields()}}) +
          output::table_of_signals();
 }
 
 struct SchemaOptions : Options {
-  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset, pair, hypothesis, columns or all
+  std::string kind = "scenario";  ///< scenario, campaign, rig, dataset, lever, pair, hypothesis, columns, all
   std::string format = "json";    ///< JSON Schema; markdown: a list; yaml: the rig `thesis`
 };
 
@@ -246,6 +247,8 @@ int print_schema(const SchemaOptions& options) {
     return print_kind(input::campaign_schema, "Campaign", input::list_fields<domain::Campaign>(), format);
   if (kind == "dataset")
     return print_kind(input::dataset_schema, "Data set", input::list_fields<domain::Dataset>(), format);
+  if (kind == "lever")
+    return print_kind(input::scenario_schema, "Lever", input::list_fields(domain::lever_scenario()), format);
   if (kind == "pair")
     return print_kind(input::pair_schema, "Pair", input::list_fields(domain::pair_scenario()), format);
   if (kind == "hypothesis")
@@ -278,8 +281,8 @@ void add_schema(CLI::App& app, Asked& asked) {
   SchemaOptions& options = asked.when(verb, print_schema);
   verb.add_option("kind", options.kind,
                   "Kind of file (default: scenario); columns: what tables have; all: the reference page")
-      ->check(
-          one_of("kind", {"scenario", "campaign", "rig", "dataset", "pair", "hypothesis", "columns", "all"}))
+      ->check(one_of("kind", {"scenario", "campaign", "rig", "dataset", "lever", "pair", "hypothesis",
+                              "columns", "all"}))
       ->type_name("");
   CLI::Option* format = verb.add_option("--format", options.format,
                                         "How to print it (default: json); yaml, of a rig only, prints "

@@ -177,13 +177,17 @@ struct Scenario {
       target(self.target,
              "the movement that is wanted; of a lever angles; may be left out if a muscle is sealed");
     fields_of_time(self, visit);
-    visit_controllers<controllers::SingleSettings>(self, [&](auto& controllers) {
+    const auto controllers_of_rig = [&](auto& controllers) {
       if (self.rig.valve.seals())
         visit("controllers", controllers, "none: the muscle is sealed");
       else
         visit.required("controllers", controllers,
                        "what is to follow the target; none if a muscle is sealed");
-    });
+    };
+    if (self.rig.lever() != nullptr)
+      visit_controllers<controllers::LeverSettings>(self, controllers_of_rig);
+    else
+      visit_controllers<controllers::SingleSettings>(self, controllers_of_rig);
     visit("joint_force", self.outer_forces,
           "forces on the cord in addition to the load, one after the other; none before the first");
     visit_torques(self, visit);
@@ -255,6 +259,13 @@ inline Scenario pair_scenario() {
   Scenario scenario;
   scenario.rig = plant::thesis_pair();
   scenario.loads_kg = Hand{}.loads_kg;
+  return scenario;
+}
+
+/// A scenario of a lever with every default.
+inline Scenario lever_scenario() {
+  Scenario scenario;
+  scenario.rig.mechanics = plant::Lever{};
   return scenario;
 }
 

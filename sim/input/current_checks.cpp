@@ -89,7 +89,7 @@ void follow_valve(controllers::Settings& settings, const Source& source, const N
     CurrentChecker output(source, node, rig, problems);
     const bool works = output.ends("lowest_command", *terms->lowest_current_mA, "highest_command",
                                    *terms->highest_current_mA);
-    if (const auto* one = std::get_if<controllers::PidSettings>(&settings); one != nullptr && works)
+    if (const auto* one = controllers::part_of<controllers::RestTerms>(settings); one != nullptr && works)
       output.rest(*one->rest_current_mA, *terms->lowest_current_mA, *terms->highest_current_mA);
   }
   if (const auto* contractions = controllers::weighing_of(settings))

@@ -1,6 +1,4 @@
 // See the header.
-#include <variant>
-
 #include <fmt/format.h>
 
 #include <plant/plant.hpp>
@@ -24,18 +22,6 @@ void check_lever_target(const domain::Scenario& scenario, const Source& source, 
                    fmt::format("the target goes from {:.4g} to {:.4g} deg, beyond the rig's "
                                "joint.lowest_angle or highest_angle",
                                lowest / plant::degree_rad, highest / plant::degree_rad));
-}
-
-void check_lever_controller(const controllers::Settings& settings, const Source& source, Place place,
-                            Problems& problems) {
-  using namespace controllers;
-  using Fitting = std::variant<PidSettings, ExternalSettings, PluginSettings, SineCurrent, TriangleCurrent,
-                               StepCurrent, StairCurrent, ChirpCurrent, RecordedCurrent>;
-  if (!std::visit([]<class One>(const One&) { return is_one_of<One, Fitting>; }, settings))
-    problems.error(
-        source, place,
-        "this controller is for the height of a load; a lever's angle takes pid, external, plugin, or given "
-        "currents");
 }
 
 }  // namespace mckibben::input

@@ -9,8 +9,5 @@ namespace mckibben::input {
 /// A target goes as far as the muscle and the joint's stops let it.
 void check_lever_target(const domain::Scenario& scenario, const Source& source, Place target,
                         Problems& problems);
-/// A lever goes by its angle, of which models of a load's height know nothing.
-void check_lever_controller(const controllers::Settings& settings, const Source& source, Place place,
-                            Problems& problems);
 
 }  // namespace mckibben::input

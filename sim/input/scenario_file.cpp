@@ -200,8 +200,6 @@ class ScenarioChecker {
         guest->folder = source_.folder().string();
       if (const auto* plugin = std::get_if<controllers::PluginSettings>(&scenario_.controllers[i]))
         look_for_library(plugin->library, *node.find("library"));
-      if (scenario_.rig.lever() != nullptr)
-        check_lever_controller(scenario_.controllers[i], source_, node.place, problems_);
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
       if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())

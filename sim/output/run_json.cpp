@@ -125,13 +125,13 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
   document["tolerance"] = scenario.rig.integrator.tolerance;
   document["scenario"] = input::scenario_json(scenario);
   document["tuned"] = Json::array();
-  const bool pair = scenario.rig.pair() != nullptr;
+  const bool angle = scenario.rig.has_angle();
   for (const auto& row : comparison.tuned) {
     if (!row.failure.empty()) continue;
     document["tuned"].push_back(
         {{"controller", row.controller},
          {"load_kg", row.load_kg},
-         {in_unit(scenario.rig.command_unit(), pair ? "proportional_mA_per_rad" : "proportional_mA"),
+         {in_unit(scenario.rig.command_unit(), angle ? "proportional_mA_per_rad" : "proportional_mA"),
           row.tuned.gains.proportional_mA / run::per_ratio(scenario.rig)},
          {"integral_time_s", row.tuned.gains.integral_time_s},
          {"derivative_time_s", row.tuned.gains.derivative_time_s},

@@ -75,7 +75,7 @@ std::string tuned_line(const plant::Rig& rig, const run::TunedController& row) {
       "  {} at {:g} kg: proportional {:.4g} {}, integral_time {:.4g} s, derivative_time {:.4g} s ({} runs); "
       "cost {:.3g}, at the start {}, without feedback {}{}\n",
       row.controller, row.load_kg, row.tuned.gains.proportional_mA / run::per_ratio(rig),
-      in_unit(rig.command_unit(), rig.pair() != nullptr ? "mA/rad" : "mA"), row.tuned.gains.integral_time_s,
+      in_unit(rig.command_unit(), rig.has_angle() ? "mA/rad" : "mA"), row.tuned.gains.integral_time_s,
       row.tuned.gains.derivative_time_s, row.tuned.evaluations, row.tuned.cost, cost(row.tuned.start_cost),
       cost(row.idle_cost), run::gained_nothing(row) ? ": the tuning gained nothing" : "");
 }

@@ -299,10 +299,10 @@ controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> t
                                .model = force_model(rig.muscle),
                                .valve = valve_line(rig.valve),
                                .reach = {}};
+  if (rig.has_angle()) known.wheel_radius_m = rig.joint.wheel_radius_m;
   if (const plant::Pair* pair = rig.pair())
     known.pair = {.opposite = force_model(pair->opposite.muscle),
                   .opposite_valve = valve_line(pair->opposite.valve),
-                  .wheel_radius_m = rig.joint.wheel_radius_m,
                   .mounted_ratio = pair->contraction_ratio,
                   .opposite_mounted_ratio = pair->opposite_contraction_ratio,
                   .stiffness_N_m_per_rad = {}};

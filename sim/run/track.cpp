@@ -42,18 +42,14 @@ bool is_at_end(double current_mA, const plant::Rig& rig) {
 }  // namespace
 
 double per_ratio(const plant::Rig& rig) {
-  return rig.pair() != nullptr ? rig.muscle.rest_length_m / rig.joint.wheel_radius_m : 1.0;
-}
-
-double rad_per_shown_ratio(const plant::Rig& rig) {
-  return rig.muscle.rest_length_m / rig.joint.wheel_radius_m;
+  return rig.has_angle() ? rig.muscle.rest_length_m / rig.joint.wheel_radius_m : 1.0;
 }
 
 std::vector<Wanted> wanted_of(const domain::Scenario& scenario) {
   const plant::Rig& rig = scenario.rig;
   const std::size_t ticks = ticks_of(scenario);
   if (rig.lever() != nullptr) {
-    const double rad = rad_per_shown_ratio(rig);
+    const double rad = per_ratio(rig);
     Wanted wanted{"",
                   controllers::sample(scenario.angle, ticks, rig.tick_s, rad),
                   {},

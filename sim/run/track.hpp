@@ -27,11 +27,9 @@ std::vector<Wanted> wanted_of(const domain::Scenario& scenario);
 /// What controllers are told of a target.
 controllers::Knowledge knowledge_of(const domain::Scenario& scenario, const Wanted& wanted);
 
-/// Of what is followed and shown, for a whole contraction ratio of muscle 1: 1, or of a pair the joint angle
-/// [rad].
+/// Of what is followed and shown, for a whole contraction ratio that the wheel shows: 1, or of a pair or a
+/// lever the joint angle [rad].
 double per_ratio(const plant::Rig& rig);
-/// What the wheel that reads a joint has turned [rad] for a contraction ratio that it shows.
-double rad_per_shown_ratio(const plant::Rig& rig);
 
 RunPlan plan_of(const domain::Scenario& scenario, double load_kg, std::uint64_t stream);
 

@@ -25,19 +25,25 @@ Knowledge known(std::vector<double> angles_rad, std::vector<double> stiffness = 
   k.valve = {4.0, 20.0, 0.5e5, 5e5};
   k.target = std::move(angles_rad);
   for (double& each : k.target) each *= 0.1;
+  k.wheel_radius_m = 0.03;
   k.pair = {.opposite = {0.008, 0.28, 22.0 * degree_rad, 1.05, false},
             .opposite_valve = {4.0, 20.0, 0.0, 6e5},
-            .wheel_radius_m = 0.03,
             .mounted_ratio = 0.1,
             .opposite_mounted_ratio = 0.12,
             .stiffness_N_m_per_rad = std::move(stiffness)};
   return k;
 }
 
+JointTerms held_at(double co_contraction_Pa) {
+  JointTerms terms;
+  terms.co_contraction_Pa = co_contraction_Pa;
+  return terms;
+}
+
 /// Torque of nominal muscles over the angle, by differences.
 double stiffness(const Knowledge& k, double ratio, double pressure_1_Pa, double pressure_2_Pa) {
   const auto torque = [&](double angle_rad) {
-    const double R = k.pair->wheel_radius_m;
+    const double R = k.wheel_radius_m;
     return R * (k.model.force_N(0.1 + R * angle_rad / 0.3, pressure_1_Pa) -
                 k.pair->opposite.force_N(0.12 - R * angle_rad / 0.28, pressure_2_Pa));
   };
@@ -47,7 +53,7 @@ double stiffness(const Knowledge& k, double ratio, double pressure_1_Pa, double 
 
 TEST(CoContraction, IsTheMeanOfBothPressures) {
   const Knowledge k = known({0.0});
-  CoContraction both({.co_contraction_Pa = 2e5}, k);
+  CoContraction both(held_at(2e5), k);
   const Command command = both.command(1.5);
   const double one_Pa = k.valve.pressure_Pa(command.current_mA),
                two_Pa = k.pair->opposite_valve.pressure_Pa(command.opposite_mA);
@@ -74,7 +80,7 @@ TEST(CoContraction, StiffensNominalMusclesAsWanted) {
 TEST(CoContraction, KeepsBothPressuresOnTheirLinesWhateverIsAsked) {
   const Knowledge k = known({0.0});
   for (const double co_Pa : {0.0, 1e5, 4.9e5, 9e5}) {
-    CoContraction both({.co_contraction_Pa = co_Pa}, k);
+    CoContraction both(held_at(co_Pa), k);
     EXPECT_LE(both.differences().lowest_mA, both.differences().highest_mA) << co_Pa;
     for (const double end_mA : {both.differences().lowest_mA, both.differences().highest_mA}) {
       const Command command = both.command(end_mA);

@@ -56,8 +56,8 @@ domain::Scenario raised() {
   angle.start.value = 20.0 * one_deg;
   angle.moves = {{1.0, 1.0, {60.0 * one_deg}}};
   scenario.angle = angle;
-  controllers::PidSettings pid;
-  pid.proportional_mA = 60.0;
+  controllers::LeverPidSettings pid;
+  pid.proportional_mA = 6.0;  // for a radian: the wheel turns as far for a tenth of the muscle's length
   pid.integral_time_s = 0.3;
   pid.derivative_time_s = 0.03;
   scenario.controllers = {pid};
