@@ -249,7 +249,7 @@ void SideOf<P>::valve_flows(const Stroke<S>& stroke, const SideState<S>& state, 
   const S muscle_Pa = state.muscle_pressure_Pa + atmosphere;
 
   S error_Pa = held.reference_pressure_Pa - state.valve_pressure_Pa;
-  S supply_Pa = S(supply_Pa_);
+  S supply_Pa = S(supply_Pa_ + held.supply_above_Pa);
   if (effects_ && !rig_.effects.laws.list.empty())
     error_Pa = error_Pa + rig_.effects.command_shift_Pa(instant(stroke, state, held, now), memory);
   if (regulates_)
@@ -292,7 +292,7 @@ void SideOf<P>::switched_flows(const SideState<S>& state, const SideMemory<S>& m
                                const HeldSideOf<H>& held, SideMoment<S>& now) const {
   const P& atmosphere = rig_.gas.atmosphere_Pa;
   const S valve_Pa = state.valve_pressure_Pa + atmosphere;
-  S supply_Pa = S(supply_Pa_);
+  S supply_Pa = S(supply_Pa_ + held.supply_above_Pa);
   if (effects_) supply_Pa = supply_Pa - rig_.effects.supply_drop_Pa(memory);
   const auto through = [this](const RestrictionOf<P>& open, const H& share, const S& from, const S& to) {
     RestrictionOf<P> leak = open;

@@ -32,6 +32,8 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
     case Needs::tank:
       return !rig.effects.get<SupplyDroop>().absent() && !rig.valve.seals() &&
              driven.pressure[0] == GivenPressure::none;
+    case Needs::given_supply:
+      return driven.supply;
     case Needs::cord: {
       const Pair* pair = channel.muscle == 2 ? rig.pair() : nullptr;
       const Muscle& muscle = pair != nullptr ? pair->opposite.muscle : rig.muscle;

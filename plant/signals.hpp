@@ -66,6 +66,7 @@ struct Sample : SideSample {
 struct Driven {
   bool pair = false, length = false;        ///< two muscles; the length of one is given
   std::array<GivenPressure, 2> pressure{};  ///< of each muscle: that of its valve or its own is given
+  bool supply = false;                      ///< the pressure of the supply is given
   bool joint_force = false;  ///< a force, of a joint with an angle a torque, acts on it from outside
   bool force = false;        ///< the force of the cord is measured
 };
@@ -95,6 +96,7 @@ enum class Needs {
   sensor,
   cord,
   tank,
+  given_supply,
   outer_force,
   outer_torque
 };
@@ -239,6 +241,15 @@ inline constexpr auto signals = std::to_array<Signal>({
      .value = [](const Sample& row, std::size_t) { return row.joint_torque_N_m; },
      .may_be_given = true,
      .in_dataset = "joint_torque",
+     .must_be_named = true},
+    {.key = "supply_pressure",
+     .unit = units::bar,
+     .words = "gauge pressure of the supply as it was measured",
+     .kind = Kind::input,
+     .needs = Needs::given_supply,
+     .value = [](const Sample& row, std::size_t) { return row.supply_Pa; },
+     .may_be_given = true,
+     .in_dataset = "supply_pressure",
      .must_be_named = true},
     {.key = "encoder_contraction_ratio",
      .unit = units::ratio,

@@ -102,6 +102,7 @@ struct HeldSideOf {
   P current_speed_mA_per_s = 0.0;  ///< nu of T 4.6: change of the held current over the last tick
   GivenPressure given = GivenPressure::none;
   P pressure_rate_Pa_per_s = 0.0;  ///< how fast a given pressure runs to its next value
+  P supply_above_Pa = 0.0;         ///< of a supply whose pressure is given: by how much it is above the rig's
   P fills = 0.0, vents = 0.0;      ///< of valves that are open or shut: 1 or 0; of a sealed muscle, whether
                                    ///< it is being filled and keeps its pressure, or is shut
 };

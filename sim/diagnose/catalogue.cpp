@@ -53,6 +53,7 @@ std::vector<plant::Hook> hidden(const domain::Dataset& data) {
   const bool muscle = data.pressure_is_given();
   if (muscle || data.valve_pressure_is_given() || data.rig.valve.seals())
     list = {valve_error_shift, valve_opening, supply_drop, vent_factor, command_delay, reference};
+  if (data.supply_is_given()) list.push_back(supply_drop);
   if (muscle) list.insert(list.end(), {outflow, gas_exponent, muscle_heating});
   if (data.judged() == domain::Judged::pressure)
     list.insert(list.end(), {wheel, reading_factor, reading_delay});
@@ -93,6 +94,7 @@ bool out_of_sight(const domain::Dataset& data, const Parameter& p) {
   if (data.rig.valve.seals() && path == "valve.fill_pressure")
     return std::ranges::all_of(data.runs,
                                [](const auto& run) { return run.measured && run.measured->filled_Pa; });
+  if (data.supply_is_given() && path == "valve.supply_pressure") return true;
   return data.valve_pressure_is_given() && begins("valve.");
 }
 

@@ -87,6 +87,17 @@ constexpr auto rules = std::to_array<Rule>({
      },
      "no load is given, and the rig's wheel has no inertia: a force alone moves nothing that has no mass; "
      "give load of run {}, or joint.moving_mass or wheel_inertia of the rig"},
+    {"supply_pressure",
+     [](const Said& s) {
+       return s.gives("supply_pressure") && !s.rig.effects.get<plant::SupplyDroop>().absent();
+     },
+     "the rig has a tank whose pressure sinks by itself (effects.supply_droop); say as: ignored"},
+    {"supply_pressure",
+     [](const Said& s) {
+       return s.gives("supply_pressure") && (s.pressure() != GivenPressure::none || s.sealed());
+     },
+     "nothing is drawn from the supply where a pressure behind the valve is given or shut in; say as: "
+     "ignored"},
     {"load", [](const Said& s) { return s.has_load() && s.pair(); },
      "the rig's two muscles turn a link; nothing hangs there"},
     {"load", [](const Said& s) { return s.has_load() && !s.pair() && !s.hangs(); },

@@ -169,6 +169,11 @@ struct Dataset {
   bool lengths_are_given() const { return !runs.empty() && std::ranges::all_of(runs, &Run::length_is_given); }
   /// No run has a valve: the pressure is given, of a pair both are.
   bool pressure_is_given() const { return gives_pressure(plant::GivenPressure::muscle); }
+  bool supply_is_given() const {
+    return !runs.empty() && std::ranges::all_of(runs, [](const Run& run) {
+      return run.measured && run.measured->gives("supply_pressure");
+    });
+  }
   /// The pressure in the valve is, so that valve and supply do not matter.
   bool valve_pressure_is_given() const { return gives_pressure(plant::GivenPressure::valve); }
   bool gives_pressure(plant::GivenPressure which) const {

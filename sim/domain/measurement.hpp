@@ -57,7 +57,11 @@ struct MeasuredColumn {
   }
   /// Held from its stamp to the next; all else that is given runs straight.
   bool is_command() const { return channel.signal->in_dataset == command_key; }
-  bool is_pressure() const { return channel.signal->unit.name == plant::units::bar.name && !is_command(); }
+  /// Of a muscle.
+  bool is_pressure() const {
+    return channel.signal->unit.name == plant::units::bar.name &&
+           channel.signal->part == plant::Part::muscle && !is_command();
+  }
 };
 
 /// Whether one of the values is there.

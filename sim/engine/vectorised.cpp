@@ -233,6 +233,7 @@ void put_side(const plant::HeldSide& held, std::size_t lane, plant::HeldSideOf<L
   all.current_speed_mA_per_s.set(lane, held.current_speed_mA_per_s);
   all.given = held.given;
   all.pressure_rate_Pa_per_s.set(lane, held.pressure_rate_Pa_per_s);
+  all.supply_above_Pa.set(lane, held.supply_above_Pa);
   all.fills.set(lane, held.fills);
   all.vents.set(lane, held.vents);
 }

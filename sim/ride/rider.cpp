@@ -68,6 +68,14 @@ void take_given(const Command& drive, plant::SideState<double>& state) {
     state.valve_pressure_Pa = *drive.valve_pressure_Pa;
 }
 
+/// What acts on the whole rig until the next instant.
+void hold_outside(const plant::Rig& rig, const Drive& drive, plant::Held& held) {
+  held.length_is_given = drive.contraction_ratio.has_value();
+  held.joint_force_N = drive.joint_force_N;
+  const double own_Pa = rig.valve.supply_pressure_Pa;
+  held.supply_above_Pa = held.opposite.supply_above_Pa = drive.supply_pressure_Pa.value_or(own_Pa) - own_Pa;
+}
+
 /// Of a muscle whose length is given: what the bench says, by its zero.
 double given_ratio(const plant::Rig& rig, double said) {
   return said + rig.joint.length_offset_m / rig.muscle.rest_length_m;
@@ -99,8 +107,7 @@ void Rider::start(const Drive& given, double at_s) {
   held.reference_pressure_Pa = full(plant_.side(), drive, now.plays);
   if (plant_.opposite())
     held.opposite.reference_pressure_Pa = full(*plant_.opposite(), drive.opposite, now.opposite_plays);
-  held.length_is_given = drive.contraction_ratio.has_value();
-  held.joint_force_N = drive.joint_force_N;
+  hold_outside(plant_.rig(), drive, held);
   engine::Flow& flow = now.flow = {.state = plant_.at_rest(held)};
   if (drive.contraction_ratio) {
     // A muscle that a bench has held at a length has got used to it.
@@ -127,8 +134,7 @@ void Rider::hold(const Drive& given, double until_s) {
   if (plant_.opposite())
     hold_side(*plant_.opposite(), now.drive.opposite, drive.opposite, now.time_s, flow.state.opposite,
               length_s, now.opposite_commands, now.opposite_switches, now.opposite_plays, held.opposite);
-  held.length_is_given = drive.contraction_ratio.has_value();
-  held.joint_force_N = drive.joint_force_N;
+  hold_outside(plant_.rig(), drive, held);
   if (drive.contraction_ratio) {
     const double wanted = given_ratio(plant_.rig(), *drive.contraction_ratio);
     const double speed_per_s = (wanted - flow.state.joint.contraction_ratio) / length_s;

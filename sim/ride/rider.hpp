@@ -54,12 +54,13 @@ struct Command {
 struct Drive : Command {
   std::optional<double> contraction_ratio{};
   Command opposite{};
-  double joint_force_N = 0.0;  ///< held until then; positive lengthens the (first) muscle
+  double joint_force_N = 0.0;                  ///< held until then; positive lengthens the (first) muscle
+  std::optional<double> supply_pressure_Pa{};  ///< held until then; none: the rig's
 
   template <class Self, class Visitor>
   static void members(Self& self, Visitor& visit) {
     Command::members(self, visit);
-    visit(self.contraction_ratio, self.opposite, self.joint_force_N);
+    visit(self.contraction_ratio, self.opposite, self.joint_force_N, self.supply_pressure_Pa);
   }
 };
 

@@ -71,7 +71,8 @@ plant::Sample sample_of(const Rider& rider, std::int64_t counts, const SensorNoi
   row.counts = counts;
   row.misread_ratio = reading.misread_m / length_m;
   write(row, plant.side(), drive, now, memory.side);
-  row.supply_Pa = rig.valve.supply_pressure_Pa - rig.effects.supply_drop_Pa(memory.side);
+  row.supply_Pa = drive.supply_pressure_Pa.value_or(rig.valve.supply_pressure_Pa) -
+                  rig.effects.supply_drop_Pa(memory.side);
   row.joint_force_N = drive.joint_force_N;
   row.joint_torque_N_m = 0.0 - radius_m * drive.joint_force_N;  // of none 0, not -0
   show(rig.sensors, row, 1, reading, noise[0], row.shown);

@@ -27,15 +27,17 @@ constexpr auto givings = std::to_array<Giving>(
      {"muscle_pressure", [](auto&, auto& muscle, double Pa, auto&) { muscle.muscle_pressure_Pa = Pa; }},
      {"contraction", [](auto& drive, auto&, double ratio, auto&) { drive.contraction_ratio = ratio; }},
      {"joint_force", [](auto& drive, auto&, double N, auto&) { drive.joint_force_N = N; }},
-     {"joint_torque", [](auto& drive, auto&, double N_m, auto& rig) {
+     {"joint_torque",
+      [](auto& drive, auto&, double N_m, auto& rig) {
         drive.joint_force_N = domain::as_force_N(N_m, rig.joint.wheel_radius_m);
-      }}});
+      }},
+     {"supply_pressure", [](auto& drive, auto&, double Pa, auto&) { drive.supply_pressure_Pa = Pa; }}});
 static_assert(std::ranges::all_of(plant::signals, [](const plant::Signal& signal) {
   return !signal.may_be_given || std::ranges::find(givings, signal.in_dataset, &Giving::key) != givings.end();
 }));
 
-/// How far on to the next stamp each kind of given column is: commands, which are held; forces, which are
-/// held as well, at their mean; what is what it is at an instant, and runs straight on.
+/// How far on to the next stamp each kind of given column is: commands, which are held; forces and the
+/// supply, which are held as well, at their mean; what is what it is at an instant, and runs straight on.
 struct Shares {
   double command = 0.0, force = 0.0, straight = 0.0;
 

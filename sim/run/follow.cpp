@@ -70,6 +70,7 @@ Following::Following(const plant::Rig& rig, double load_kg, Course course, Done 
   recording_.driven = {.pair = rig.pair() != nullptr,
                        .length = first.contraction_ratio.has_value(),
                        .pressure = {first.given(), first.opposite.given()},
+                       .supply = first.supply_pressure_Pa.has_value(),
                        .joint_force = this->course().outer_force};
   recording_.samples.reserve(this->course().rows.size());
 }

@@ -117,6 +117,7 @@ struct Eight {
       held.emplace_back();
       held.back().reference_pressure_Pa = chance.between(0.5e5, 5e5);
       held.back().current_speed_mA_per_s = chance.between(-50.0, 50.0);
+      held.back().supply_above_Pa = chance.between(-1e5, 1e5);
     }
   }
 

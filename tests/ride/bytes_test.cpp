@@ -65,6 +65,7 @@ TEST(Bytes, HoldNothingWhereAValueLacks) {
     drive.current_mA = 9.0;
     drive.opposite.valve_pressure_Pa = 2e5;
     drive.joint_force_N = 3.0;
+    drive.supply_pressure_Pa = 6e5;
   };
   const std::string bytes = bytes_over<Drive>(0x55, fill);
   EXPECT_EQ(bytes, bytes_over<Drive>(0xAA, fill));
@@ -78,6 +79,7 @@ TEST(Bytes, HoldNothingWhereAValueLacks) {
   EXPECT_EQ(back.opposite.muscle_pressure_Pa, std::nullopt);
   EXPECT_EQ(back.opposite.valve_pressure_Pa, 2e5);
   EXPECT_EQ(back.joint_force_N, 3.0);
+  EXPECT_EQ(back.supply_pressure_Pa, 6e5);
 }
 
 // What a rig says of its sensor is no state; ends that its range lacks were whatever memory held.
