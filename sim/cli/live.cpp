@@ -1,13 +1,11 @@
 // The verb `live`: a rig in the browser, moved by hand in real time.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
 
-#include <plant/geometry.hpp>
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/common_checks.hpp>
@@ -28,25 +26,12 @@ struct LiveOptions : Options {
   double load_kg = 0.0;
 };
 
-/// One that the muscle lifts about halfway: by its force at full pressure, in two digits.
-double usual_load_kg(const plant::Rig& rig) {
-  constexpr double share = 0.13, least_kg = 0.1;
-  const double most_N = plant::Braid(rig.muscle).largest_force_N(rig.valve.span_pressure_Pa);
-  double kg = share * most_N / plant::gravity_m_per_s2;
-  if (rig.lever() != nullptr) {  // what pulls at its muscle goes straight with the load
-    const double none_kg = rig.pulled_kg(0.0);
-    kg = std::max(least_kg, (kg - none_kg) / (rig.pulled_kg(1.0) - none_kg));
-  }
-  const double digit = std::pow(10.0, std::floor(std::log10(kg)) - 1.0);
-  return std::round(kg / digit) * digit;
-}
-
 int show_live(const LiveOptions& options) {
   std::vector<domain::InputFile> inputs;
   const plant::Rig rig = input::read_rig(options.rig, inputs);
   const bool pair = rig.pair() != nullptr;
   if (!rig.has_angle()) input::require_load(rig, options.rig, "live");
-  const double load_kg = options.load_kg > 0.0 ? options.load_kg : usual_load_kg(rig);
+  const double load_kg = options.load_kg > 0.0 ? options.load_kg : input::usual_load_kg(rig);
   const std::string why = !pair                   ? input::too_heavy(load_kg, rig)
                           : options.load_kg > 0.0 ? "two muscles turn a link; no load hangs there"
                                                   : "";

@@ -1,4 +1,6 @@
 // Checks shared by the readers of scenarios and campaigns; see the header.
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <string_view>
 
@@ -55,6 +57,18 @@ std::string no_mass(const plant::Rig& rig) {
     return fmt::format("with the rig's joint.load_offset of {} no load is left",
                        write_quantity(rig.joint.load_offset_kg, "kg"));
   return "without a load nothing moves: give joint.moving_mass, or wheel_inertia, of the rig";
+}
+
+double usual_load_kg(const plant::Rig& rig) {
+  constexpr double share = 0.13, least_kg = 0.1;
+  const double most_N = plant::Braid(rig.muscle).largest_force_N(rig.valve.span_pressure_Pa);
+  double kg = share * most_N / plant::gravity_m_per_s2;
+  if (rig.lever() != nullptr) {  // what pulls at its muscle goes straight with the load
+    const double none_kg = rig.pulled_kg(0.0);
+    kg = std::max(least_kg, (kg - none_kg) / (rig.pulled_kg(1.0) - none_kg));
+  }
+  const double digit = std::pow(10.0, std::floor(std::log10(kg)) - 1.0);
+  return std::round(kg / digit) * digit;
 }
 
 std::string too_heavy(double load_kg, const plant::Rig& rig) {

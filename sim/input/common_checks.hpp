@@ -31,6 +31,9 @@ std::string no_mass(const plant::Rig& rig);
 /// Why the rig's taut threads cannot bear a load; empty if they can.
 std::string too_heavy(double load_kg, const plant::Rig& rig);
 
+/// A load that the muscle lifts about halfway: by its force at full pressure, in two digits.
+double usual_load_kg(const plant::Rig& rig);
+
 /// No load may stand twice in the list at `nodes`.
 void check_different(const std::vector<double>& loads_kg, const Node& nodes, const Source& source,
                      Problems& problems);

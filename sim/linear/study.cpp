@@ -1,0 +1,35 @@
+// See the header.
+#include <sim/linear/study.hpp>
+
+namespace mckibben::linear {
+
+bool is_linear(const controllers::Settings& settings) {
+  return std::holds_alternative<controllers::PidSettings>(settings) ||
+         std::holds_alternative<controllers::PairPidSettings>(settings);
+}
+
+Study study(const plant::Rig& rig, double load_kg, const Place& place, const Question& question,
+            std::span<const controllers::Settings> controllers) {
+  Study result{.point = point_at(rig, load_kg, place, question.threads, question.opening), .loops = {}};
+  if (question.swing_m_per_s) result.point = result.point.swinging(*question.swing_m_per_s);
+  const Point& point = result.point;
+  const auto add = [&](const std::string& name, const System& open) -> Loop& {
+    return result.loops.emplace_back(name, open, margins_of(open));
+  };
+  for (const controllers::Settings& each : controllers) {
+    if (!is_linear(each)) continue;
+    const auto& pid = *controllers::part_of<controllers::PidForm>(each);
+    Loop& loop = add(name_of(each), loop_of(point, pid, rig.tick_s));
+    if (!loop.margins.stable) loop.calmed_m_per_s = calmed_m_per_s(point, pid, rig.tick_s);
+  }
+  if (question.margins) result.by_margins = pid_by_margins(point, rig.tick_s, *question.margins);
+  if (result.by_margins) add("pid_by_margins", loop_of(point, pid_of(*result.by_margins), rig.tick_s));
+  if (question.lqr) {
+    const Regulator regulator = lqr(point, rig.tick_s, question.lqr->position, question.lqr->command);
+    result.lqr = regulator.gain;
+    add("lqr", regulator.loop);
+  }
+  return result;
+}
+
+}  // namespace mckibben::linear

@@ -1,0 +1,129 @@
+// The verb linearise from end to end: its files, and that other programs would read them.
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+
+#include "program.hpp"
+
+namespace mckibben::cli {
+namespace {
+
+constexpr const char* loops =
+    "schema: mckibben-scenario/1\nloads: [11 kg]\nduration: 1 s\n"
+    "target: {kind: steps, start: 0.1, moves: []}\n"
+    "controllers:\n"
+    "  - {kind: pid, name: soft, proportional: 8 mA, integral_time: 0.2 s, derivative_time: 0.05 s}\n"
+    "  - {kind: pid, name: wild, proportional: 300 mA, integral_time: 0.2 s, derivative_time: 0.05 s}\n"
+    "  - {kind: static_inverse, assumed_load: 11 kg}\n";
+
+class Linearise : public InAFolder {
+ protected:
+  void SetUp() override { write_text(scratch / "loops.yaml", loops); }
+  input::Json result_of(const std::string& arguments) {
+    const Said said = mckibben("linearise " + arguments + " --json", scratch);
+    EXPECT_EQ(said.status, 0) << said.err;
+    return input::Json::parse(said.out);
+  }
+};
+
+TEST_F(Linearise, SaysPolesAndMarginsAndWritesWhatItSays) {
+  const auto document = result_of("loops.yaml --at 0.15 --margins '60 deg' --lqr '1 mA'");
+  const auto folder = scratch / "out" / "loops-linearise";
+  for (const char* file :
+       {"linearise.json", "table.txt", "bode.csv", "bode.svg", "linearise.py", "linearise.m"})
+    EXPECT_FALSE(read_text(folder / file).empty()) << file;
+  EXPECT_EQ(document.at("schema"), "mckibben-linearise/1");
+  EXPECT_EQ(document.at("not_linear"), input::Json::array({"static_inverse"}));
+  const auto& point = document.at("points").at(0);
+  EXPECT_EQ(point.at("poles_per_s").size(), 4u);
+  EXPECT_EQ(point.at("states").size(), point.at("A").size());
+  EXPECT_NEAR(point.at("outputs").at(0).at("at").get<double>(), 0.15, 1e-3);
+  ASSERT_EQ(point.at("loops").size(), 4u);
+  const auto &soft = point.at("loops").at(0), &wild = point.at("loops").at(1),
+             &found = point.at("loops").at(2);
+  EXPECT_TRUE(soft.at("stable").get<bool>());
+  EXPECT_GT(soft.at("gain_margin").get<double>(), 1.0);
+  EXPECT_FALSE(wild.at("stable").get<bool>());
+  EXPECT_TRUE(wild.at("gain_margin").is_null());
+  EXPECT_GT(wild.at("calmed_m_per_s").get<double>(), 0.0);
+  EXPECT_GE(found.at("phase_margin_rad").get<double>(), 1.0471);
+  EXPECT_EQ(point.at("lqr").size(), 4u);
+  const std::string table = read_text(folder / "table.txt");
+  EXPECT_TRUE(holds(table, "wild               unstable; dry friction calms swings slower than"));
+  EXPECT_TRUE(holds(table, point.at("pid_by_margins").get<std::string>()));
+}
+
+TEST_F(Linearise, PidByMarginsCanBePastedIntoTheScenario) {
+  const auto document = result_of("loops.yaml --at 0.15 --margins '60 deg'");
+  const auto line = document.at("points").at(0).at("pid_by_margins").get<std::string>();
+  write_text(scratch / "pasted.yaml", std::string(loops) + "  - " + line + "\n");
+  const auto again = result_of("pasted.yaml --at 0.15");
+  const auto& pasted = again.at("points").at(0).at("loops").at(2);
+  EXPECT_EQ(pasted.at("name"), "pid_by_margins");
+  EXPECT_NEAR(pasted.at("phase_margin_rad").get<double>(),
+              document.at("points").at(0).at("loops").at(2).at("phase_margin_rad").get<double>(), 2e-3);
+}
+
+/// In place of python-control a module that keeps what it is handed.
+TEST_F(Linearise, PythonProgramMakesTheSystem) {
+  const auto document = result_of("loops.yaml --at 0.15 --lqr '1 mA' --out made");
+  write_text(scratch / "control.py", "def ss(A, B, C, D, **names):\n    return A, B, C, D, names\n");
+  write_text(
+      scratch / "use.py",
+      "import json, runpy\nmade = runpy.run_path('made/linearise.py')\nA, B, C, D, names = made['rig']\n"
+      "print(json.dumps([A, B, C, D, names['states'], made['lqr'][0]]))\n");
+  const Said said = shell("PYTHONPATH=. python3 use.py", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto made = input::Json::parse(said.out);
+  const auto& point = document.at("points").at(0);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(made.at(i), point.at(std::string(1, "ABCD"[i])));
+  EXPECT_EQ(made.at(4).size(), point.at("states").size());
+  EXPECT_EQ(made.at(5).at(0), point.at("lqr"));
+  EXPECT_TRUE(holds(read_text(scratch / "made" / "linearise.m"), "rig = points{1};"));
+}
+
+/// The Bode table is the response of the matrices that are exported, where no load sticks.
+TEST_F(Linearise, BodeBeginsAtTheGainAtRest) {
+  const auto document = result_of("thesis --at '10 mA' --load '11 kg'");
+  std::istringstream rows(read_text(scratch / "out" / "thesis-linearise" / "bode.csv"));
+  std::string head, first;
+  std::getline(rows, head);
+  std::getline(rows, first);
+  EXPECT_EQ(head, "frequency_Hz,rig_gain,rig_phase_deg");
+  const double gain = std::stod(first.substr(first.find(',') + 1));
+  EXPECT_NEAR(gain / document.at("points").at(0).at("gain_at_rest").get<double>(), 1.0, 1e-4);
+}
+
+TEST_F(Linearise, TakesPlacesOfEachKindAndLoads) {
+  const auto document = result_of(
+      "thesis --at '10 mA' --at '2 bar' --at 0.2 --load '11 kg' --load '16 kg' --friction sticking --valve "
+      "filling");
+  ASSERT_EQ(document.at("points").size(), 6u);
+  EXPECT_NEAR(document.at("points").at(1).at("outputs").at(1).at("at").get<double>(), 2e5, 100.0);
+  EXPECT_EQ(document.at("threads"), "sticking");
+  EXPECT_FALSE(read_text(scratch / "out" / "thesis-linearise" / "bode_6.svg").empty());
+  const auto pair = result_of("thesis_pair --at '10 deg'");
+  EXPECT_EQ(pair.at("points").at(0).at("inputs").size(), 2u);
+  EXPECT_NEAR(pair.at("points").at(0).at("outputs").at(0).at("at").get<double>(), 0.1745, 1e-3);
+}
+
+TEST_F(Linearise, SaysWhatItCannotDo) {
+  const Said far = run("linearise thesis --at 0.9");
+  EXPECT_EQ(far.status, 65);
+  EXPECT_TRUE(holds(far.err, "a contraction ratio of 0.9 is out of reach: commands give "));
+  write_text(scratch / "sealed.yaml", "schema: mckibben-rig/1\nvalve: {kind: none}\n");
+  const Said sealed = run("linearise sealed.yaml");
+  EXPECT_EQ(sealed.status, 65);
+  EXPECT_TRUE(holds(sealed.err, "its valve keeps no pressure that follows a command"));
+  const Said unit = run("linearise thesis --at '10 kg'");
+  EXPECT_EQ(unit.status, 64);
+  EXPECT_TRUE(
+      holds(unit.err, "--at 10 kg: no command as \"10 mA\", no pressure as \"2.5 bar\" and no contraction"));
+}
+
+}  // namespace
+}  // namespace mckibben::cli

@@ -1,0 +1,187 @@
+// Loops: the PID as a system against the controller itself, margins against loops that are simulated.
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <controllers/settings.hpp>
+#include <sim/linear/loop.hpp>
+#include <sim/ride/ride.hpp>
+#include <sim/run/simulate.hpp>
+
+namespace mckibben::linear {
+namespace {
+
+constexpr double lifted_kg = 11.0, tick_s = 0.012;
+
+/// A regulator, no friction, and counts so fine that they are numbers.
+plant::Rig fine_rig() {
+  plant::Rig rig;
+  rig.friction.memory = plant::FrictionMemory::coulomb;
+  rig.friction.scale = rig.friction.floor_N = 0.0;
+  rig.valve.kind = plant::ValveKind::regulator;
+  rig.valve.time_constant_s = 0.05;
+  rig.joint.guide_damping_N_s_per_m = 150.0;
+  rig.sensors.position().pulses_per_turn = 10000000;
+  rig.integrator.tolerance = 1e-9;
+  rig.effects.get<plant::ReadingDelay>().time_s = 0.017;
+  rig.effects.get<plant::CommandDelay>().time_s = 0.004;
+  return rig;
+}
+
+controllers::PidForm form(double K, double Ti_s, double Td_s) {
+  controllers::PidForm pid;
+  pid.proportional_mA = K;
+  pid.integral_time_s = Ti_s;
+  pid.derivative_time_s = Td_s;
+  return pid;
+}
+
+Point point_of(const plant::Rig& rig) {
+  return point_at(rig, lifted_kg, {Place::Of::position, 0.12}, Threads::sliding, Opening::both);
+}
+
+/// How a swing that begins with this speed of the load has grown after `seconds`; above 1, the loop is
+/// unstable.
+double growth(const plant::Rig& rig, const Point& point, const controllers::PidForm& form_of,
+              double kick_m_per_s, double seconds) {
+  controllers::PidSettings settings;
+  static_cast<controllers::PidForm&>(settings) = form_of;
+  settings.rest_current_mA = point.command.current_mA;
+  controllers::Knowledge known = run::knowledge_of(rig, {point.position});
+  const double count = known.contraction_per_count;
+  const auto controller = settings.make(known);
+  ride::Ride ride({rig, lifted_kg}, rig.integrator);
+  ride::Drive drive;
+  drive.current_mA = point.command.current_mA;
+  ride.start(drive, 0.0);
+  long tick = 0;
+  for (; tick < 2000; ++tick) ride.step(drive, static_cast<double>(tick + 1) * tick_s);
+  double early = 0.0, late = 0.0;
+  const long first = tick, all = std::lround(seconds / tick_s);
+  ride.rider().now.flow.state.joint.contraction_speed_per_s = kick_m_per_s / rig.muscle.rest_length_m;
+  ride.rider().now.held.slip = plant::Slip::rising;
+  for (; tick < first + all; ++tick) {
+    const double ratio = ride.reading().wheel_m / rig.muscle.rest_length_m;
+    const auto counts = static_cast<std::int64_t>(std::floor(ratio / count));
+    const long k = tick - first;
+    drive.current_mA = controller->step({k, static_cast<double>(k) * tick_s, counts}).current_mA;
+    ride.step(drive, static_cast<double>(tick + 1) * tick_s);
+    const double speed = std::abs(ride.flow().state.joint.contraction_speed_per_s);
+    if (k > all / 4 && k < all / 2) early = std::max(early, speed);
+    if (k > 3 * all / 4) late = std::max(late, speed);
+  }
+  return late / early;
+}
+
+TEST(Loop, PidIsTheControllerAsASystem) {
+  const plant::Rig rig = fine_rig();
+  for (const int every : {1, 3}) {
+    controllers::PidSettings settings;
+    static_cast<controllers::PidForm&>(settings) = form(70.0, 0.3, 0.06);
+    settings.sample_ticks = every;
+    settings.rest_current_mA = 10.0;
+    controllers::Knowledge known = run::knowledge_of(rig, {0.1});
+    const auto controller = settings.make(known);
+    const System linear = system_of(settings, tick_s);
+    EXPECT_DOUBLE_EQ(linear.step_s, every * tick_s);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
+    for (int k = 0; k < 40; ++k) {
+      const auto counts =
+          static_cast<std::int64_t>((0.1 + 0.004 * std::sin(0.21 * k)) / known.contraction_per_count);
+      const double command = controller->step({k, k * tick_s, counts}).current_mA;
+      const double e =
+          0.1 - (static_cast<double>(counts) + known.middle_of_count) * known.contraction_per_count;
+      if (k % every != 0) continue;
+      const double u = (linear.C * x)(0) + linear.D(0, 0) * e;
+      x = linear.A * x + linear.B * e;
+      if (k == 0) {  // bumpless: the integral takes up the proportional part, the derivative begins with none
+        x[0] -= 70.0 * e;
+        x[1] = 0.0;
+      }
+      EXPECT_NEAR(command, k == 0 ? 10.0 : 10.0 + u, 1e-9) << k;
+    }
+  }
+}
+
+/// Just above its gain margin the loop swings up, just below it dies out; of both ends, and of the phase.
+TEST(Loop, IsUnstableJustBeyondItsMarginsAndStableJustWithin) {
+  const plant::Rig rig = fine_rig();
+  const Point point = point_of(rig);
+  for (const int delay_ticks : {0, 2}) {
+    controllers::PidForm pid = form(12.0, 0.4, 0.05);
+    pid.feedback_delay_ticks = delay_ticks;
+    const Margins margins = margins_of(loop_of(point, pid, tick_s));
+    ASSERT_TRUE(margins.stable);
+    ASSERT_TRUE(margins.gain && margins.phase_rad);
+    for (const double beside : {0.96, 1.04}) {
+      controllers::PidForm stronger = pid;
+      stronger.proportional_mA = *pid.proportional_mA * *margins.gain * beside;
+      EXPECT_EQ(margins_of(loop_of(point, stronger, tick_s)).stable, beside < 1.0);
+      EXPECT_EQ(growth(rig, point, stronger, 2e-3, 20.0) < 1.0, beside < 1.0) << delay_ticks << " " << beside;
+    }
+    // The phase margin is a delay that may come on top.
+    const double more_s = *margins.phase_rad / margins.phase_rad_per_s;
+    for (const double share : {0.97, 1.03}) {
+      Point late = point;
+      late.reading_delay_s += share * more_s;
+      EXPECT_EQ(margins_of(loop_of(late, pid, tick_s)).stable, share < 1.0) << share;
+    }
+  }
+}
+
+TEST(Loop, ThatIsUnstableHasNoMargins) {
+  const Margins margins = margins_of(loop_of(point_of(fine_rig()), form(5000.0, 0.0, 0.0), tick_s));
+  EXPECT_FALSE(margins.stable);
+  EXPECT_FALSE(margins.gain || margins.phase_rad);
+}
+
+/// What is unstable without friction comes to rest from swings slower than said, and grows from faster ones.
+TEST(Loop, ThatIsUnstableIsCalmedByDryFrictionUpToASpeed) {
+  plant::Rig rig = fine_rig();
+  rig.joint.guide_damping_N_s_per_m = 20.0;
+  rig.friction.floor_N = 3.0;
+  const Point point = point_of(rig);
+  controllers::PidForm pid = form(4.0, 0.4, 0.02);
+  const Margins margins = margins_of(loop_of(point, pid, tick_s));
+  ASSERT_TRUE(margins.gain.has_value());
+  pid.proportional_mA = 2.2 * *pid.proportional_mA * *margins.gain;
+  EXPECT_FALSE(margins_of(loop_of(point, pid, tick_s)).stable);
+  const double calmed = calmed_m_per_s(point, pid, tick_s);
+  EXPECT_GT(calmed, 1e-3);
+  EXPECT_LT(growth(rig, point, pid, 0.6 * calmed, 4.0), 1.0) << calmed;
+  EXPECT_GT(growth(rig, point, pid, 1.6 * calmed, 4.0), 1.0) << calmed;
+}
+
+TEST(Loop, PidByMarginsHasThem) {
+  const plant::Rig rig = fine_rig();
+  const Point point = point_of(rig);
+  for (const double wanted : {40.0, 60.0}) {
+    const auto gains = pid_by_margins(point, tick_s, {wanted * std::numbers::pi / 180.0});
+    ASSERT_TRUE(gains.has_value());
+    const auto pid = form(gains->proportional_mA, gains->integral_time_s, gains->derivative_time_s);
+    const Margins has = margins_of(loop_of(point, pid, tick_s));
+    EXPECT_TRUE(has.stable);
+    EXPECT_GT(*has.phase_rad * 180.0 / std::numbers::pi, wanted - 0.1);
+    EXPECT_GE(*has.gain, 2.0);
+    EXPECT_LT(growth(rig, point, pid, 2e-3, 20.0), 1.0);
+  }
+}
+
+/// A state feedback of least squares bears a gain of half (Kalman 1964), and in fine ticks 60 degrees.
+TEST(Loop, LqrBearsHalfItsGainAndSixtyDegrees) {
+  plant::Rig rig = fine_rig();
+  rig.tick_s = 1e-3;
+  const Regulator regulator = lqr(point_of(rig), rig.tick_s, 0.01, 1.0);
+  const Margins margins = margins_of(regulator.loop);
+  ASSERT_TRUE(margins.stable);
+  EXPECT_LE(margins.shrunk_gain.value_or(0.0), 0.5);
+  EXPECT_GT(margins.phase_rad.value_or(std::numbers::pi) * 180.0 / std::numbers::pi, 58.0);
+  const Point point = point_of(rig);
+  const Matrix steps = point.slopes.A - point.slopes.B * regulator.gain;
+  for (const Complex& pole : poles({steps, point.slopes.B, point.slopes.C, point.slopes.D}))
+    EXPECT_LT(pole.real(), 0.0);
+}
+
+}  // namespace
+}  // namespace mckibben::linear
