@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -27,65 +28,85 @@ struct Rows {
   std::vector<double> time_s, state, contraction_ratio;
 };
 
+/// A rig that a batch may have, with its load. Throws what Python shows as ValueError.
+ride::Loaded hung(const plant::Rig& rig, double load_kg) {
+  if (rig.pair() != nullptr) throw py::value_error("rigs of a batch have one muscle each");
+  if (rig.valve.seals()) throw py::value_error("rigs of a batch are commanded, no sealed muscle is");
+  if (rig.lever() != nullptr)
+    throw py::value_error("a batch counts heights of loads, not the angle of a lever");
+  if (!rig.can_hang(load_kg) || !(load_kg <= 500.0))
+    throw py::value_error("loads_kg: masses of 0 to 500 kg, and something that moves");
+  return {rig, load_kg};
+}
+
+/// One rig for all, or a list of them.
+std::vector<plant::Rig> rigs_of(const py::object& rigs, std::size_t count) {
+  if (!py::isinstance<py::list>(rigs) && !py::isinstance<py::tuple>(rigs)) return {count, rig_of(rigs).file};
+  std::vector<plant::Rig> all;
+  for (const auto& rig : rigs) all.push_back(rig_of(py::reinterpret_borrow<py::object>(rig)).file);
+  return all;
+}
+
 class Batch {
  public:
   Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads) : threads_(threads) {
-    const bool many = py::isinstance<py::list>(rigs) || py::isinstance<py::tuple>(rigs);
-    std::vector<plant::Rig> files;
-    if (many)
-      for (const auto& rig : rigs) files.push_back(rig_of(py::reinterpret_borrow<py::object>(rig)).file);
-    else
-      files.push_back(rig_of(rigs).file);
-    const auto loads = static_cast<std::size_t>(loads_kg.size());
-    rigs_ = many ? files.size() : loads;
     if (loads_kg.ndim() > 1) throw py::value_error("loads_kg has the shape (n,)");
-    if (rigs_ == 0) throw py::value_error("a batch has one rig at least");
-    if (loads != 1 && loads != rigs_) throw py::value_error("loads_kg: one number, or one for each rig");
-    std::vector<ride::Loaded> hanging;
-    std::vector<solver::Settings> settings;
-    for (std::size_t i = 0; i < rigs_; ++i) {
-      const plant::Rig& file = files[many ? i : 0];
-      if (file.tick_s != files.front().tick_s) throw py::value_error("rigs of a batch have the same tick");
-      if (file.command_unit() != files.front().command_unit())
-        throw py::value_error("rigs of a batch are commanded in the same unit");
-      if (file.pair() != nullptr) throw py::value_error("rigs of a batch have one muscle each");
-      if (file.valve.seals()) throw py::value_error("rigs of a batch are commanded, no sealed muscle is");
-      if (file.lever() != nullptr)
-        throw py::value_error("a batch counts heights of loads, not the angle of a lever");
-      const double load_kg = loads_kg.data()[loads == 1 ? 0 : i];
-      if (!file.can_hang(load_kg) || !(load_kg <= 500.0))
-        throw py::value_error("loads_kg: masses of 0 to 500 kg, and something that moves");
-      hanging.push_back({file, load_kg});
-      settings.push_back(file.integrator);
-      per_count_.push_back(run::contraction_per_count(file));
-      zero_.push_back(file.valve.zero_command);
-      settling_ticks_ = std::max(settling_ticks_, std::lround(file.settling_time_s / file.tick_s));
-    }
-    tick_s_ = files.front().tick_s;
-    unit_ = files.front().command_unit();
-    counts_.resize(rigs_);
-    for (std::size_t first = 0; first < rigs_; first += most) {
-      const std::size_t count = std::min(most, rigs_ - first);
-      parts_.push_back(std::make_unique<ride::VectorRide>(std::span(hanging).subspan(first, count),
-                                                          std::span(settings).subspan(first, count)));
+    const auto loads = static_cast<std::size_t>(loads_kg.size());
+    const std::vector<plant::Rig> files = rigs_of(rigs, loads);
+    if (files.empty()) throw py::value_error("a batch has one rig at least");
+    if (loads != 1 && loads != files.size())
+      throw py::value_error("loads_kg: one number, or one for each rig");
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      members_.push_back({hung(files[i], loads_kg.data()[loads == 1 ? 0 : i])});
+      require_alike(files[i]);
     }
     start(std::nullopt);
   }
 
   void start(const std::optional<Numbers>& command) {
     const Turn turn(busy_);
-    const std::vector<double> commands = command ? all(*command) : zero_;
+    const std::vector<double> commands = command ? all(*command) : zeros();
     const py::gil_scoped_release released;
-    counters_.clear();
-    for (std::size_t i = 0; i < rigs_; ++i) counters_.emplace_back(rider(i).plant().rig());
     whole_ = true;
-    ticks_ = -settling_ticks_;
-    for_each_part([&](std::size_t p) {
-      const auto mine = of_part(commands, p);
-      parts_[p]->start(mine, time_s(ticks_));
-      for (long k = ticks_; k < 0; ++k) step(p, mine, k);
-    });
     ticks_ = 0;
+    parts_.clear();
+    std::vector<std::size_t> everybody(members_.size());
+    std::iota(everybody.begin(), everybody.end(), std::size_t{0});
+    begin(everybody, commands);
+  }
+
+  /// These begin again, others go on.
+  void restart(const std::vector<std::size_t>& which, const py::object& rigs,
+               const std::optional<Numbers>& loads_kg, const std::optional<Numbers>& command) {
+    const Turn turn(busy_);
+    require_whole();
+    const std::vector<double> commands = command ? all(*command) : zeros();
+    if (loads_kg && static_cast<std::size_t>(loads_kg->size()) != which.size())
+      throw py::value_error("loads_kg: one for each rig that begins again");
+    std::vector<plant::Rig> files;
+    if (!rigs.is_none()) files = rigs_of(rigs, which.size());
+    if (!files.empty() && files.size() != which.size())
+      throw py::value_error("rigs: one, or one for each that begins again");
+    std::vector<Member> others;
+    std::vector<bool> seen(members_.size());
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      if (which[i] >= members_.size()) throw py::index_error("no such rig in the batch");
+      if (seen[which[i]]) throw py::value_error("which: each rig once");
+      seen[which[i]] = true;
+      const Member& now = members_[which[i]];
+      const plant::Rig& rig = files.empty() ? now.hung.rig : files[i];
+      require_alike(rig);
+      others.push_back({hung(rig, loads_kg ? loads_kg->data()[i] : now.hung.load_kg)});
+    }
+    const py::gil_scoped_release released;
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      const Member& before = members_[which[i]];
+      parts_[before.part].rides->retire(before.place);
+      parts_[before.part].rigs[before.place] = nobody;
+      members_[which[i]] = others[i];
+    }
+    drop_empty_parts();
+    begin(which, commands);
   }
 
   void step(const Numbers& command) {
@@ -93,28 +114,30 @@ class Batch {
     require_whole();
     const std::vector<double> commands = all(command);
     const py::gil_scoped_release released;
-    for_each_part([&](std::size_t p) { step(p, of_part(commands, p), ticks_); });
+    for_each_part(0, [&](std::size_t p) { step(parts_[p], commands, ticks_); });
     ++ticks_;
   }
 
   py::dict follow(const Numbers& command, const py::object& progress) {
     const Turn turn(busy_);
     require_whole();
-    if (command.ndim() != 2 || static_cast<std::size_t>(command.shape(1)) != rigs_)
+    const std::size_t n = members_.size();
+    if (command.ndim() != 2 || static_cast<std::size_t>(command.shape(1)) != n)
       throw py::value_error("command has the shape (ticks, rigs)");
     const auto ticks = static_cast<std::size_t>(command.shape(0));
-    const std::span<const double> commands(command.data(), ticks * rigs_);
+    const std::span<const double> commands(command.data(), ticks * n);
     for (std::size_t i = 0; i < commands.size(); ++i)
-      if (const plant::Rig& rig = rider(i % rigs_).plant().rig(); !is_command(commands[i], rig))
-        command_within(commands[i], rig, fmt::format("command[{}, {}]", i / rigs_, i % rigs_));
+      if (const plant::Rig& rig = rig_at(i % n); !is_command(commands[i], rig))
+        command_within(commands[i], rig, fmt::format("command[{}, {}]", i / n, i % n));
     auto rows = std::make_unique<Rows>();
-    rows->state.resize(ticks * rigs_ * plant::single_size);
-    rows->contraction_ratio.resize(ticks * rigs_);
+    rows->state.resize(ticks * n * plant::single_size);
+    rows->contraction_ratio.resize(ticks * n);
     for (std::size_t k = 0; k < ticks; ++k) rows->time_s.push_back(time_s(ticks_ + static_cast<long>(k)));
     whole_ = false;  // where it ends on the way, parts have come to different instants
     do_long(progress, [&](const run::ProgressHook& hook) {
-      for_each_part([&](std::size_t p) { follow(p, commands, *rows); },
-                    [&](std::size_t done) { hook("following", done, parts_.size()); });
+      for_each_part(
+          0, [&](std::size_t p) { follow(parts_[p], commands, *rows); },
+          [&](std::size_t done) { hook("following", done, parts_.size()); });
     });
     whole_ = true;
     ticks_ += static_cast<long>(ticks);
@@ -122,73 +145,143 @@ class Batch {
   }
 
   py::array_t<double> contraction_ratio() const {
-    py::array_t<double> read(static_cast<py::ssize_t>(rigs_));
-    for (std::size_t i = 0; i < rigs_; ++i) read.mutable_data()[i] = read_ratio(i);
+    py::array_t<double> read(static_cast<py::ssize_t>(rigs()));
+    for (std::size_t i = 0; i < rigs(); ++i) read.mutable_data()[i] = read_ratio(i);
     return read;
   }
   py::array_t<double> state() const {
-    py::array_t<double> states({static_cast<py::ssize_t>(rigs_), py::ssize_t{plant::single_size}});
-    for (std::size_t i = 0; i < rigs_; ++i)
+    py::array_t<double> states({static_cast<py::ssize_t>(rigs()), py::ssize_t{plant::single_size}});
+    for (std::size_t i = 0; i < rigs(); ++i)
       std::copy_n(state_of(i), plant::single_size, states.mutable_data() + i * plant::single_size);
     return states;
   }
   py::dict failures() const {
     py::dict all;
-    for (std::size_t i = 0; i < rigs_; ++i)
-      if (const std::string& why = parts_[i / most]->failure(i % most); !why.empty()) all[py::int_(i)] = why;
+    for (std::size_t i = 0; i < rigs(); ++i)
+      if (const std::string& why = parts_[members_[i].part].rides->failure(members_[i].place); !why.empty())
+        all[py::int_(i)] = why;
     return all;
   }
-  std::size_t rigs() const { return rigs_; }
-  plant::CommandUnit command_unit() const { return unit_; }
+  std::size_t rigs() const { return members_.size(); }
+  plant::CommandUnit command_unit() const { return rig_at(0).command_unit(); }
   double now_s() const { return time_s(ticks_); }
 
  private:
   static constexpr std::size_t most = engine::Batch::most_lanes;  // rigs of a part
+  static constexpr auto nobody = static_cast<std::size_t>(-1);
 
+  struct Member {
+    ride::Loaded hung;
+    std::size_t part = 0, place = 0;
+    std::optional<plant::PositionReader> counter{};
+    std::int64_t counts = 0;
+  };
+  /// Rigs that began together.
+  struct Part {
+    std::unique_ptr<ride::VectorRide> rides;
+    std::vector<std::size_t> rigs;  ///< of the batch; nobody: has begun again elsewhere
+  };
+
+  void require_alike(const plant::Rig& rig) const {
+    if (rig.tick_s != rig_at(0).tick_s) throw py::value_error("rigs of a batch have the same tick");
+    if (rig.command_unit() != command_unit())
+      throw py::value_error("rigs of a batch are commanded in the same unit");
+  }
   void require_whole() const {
     if (!whole_) throw std::runtime_error("it was interrupted on the way; start it again");
   }
-  std::vector<double> all(const Numbers& command) const {
-    const auto given = static_cast<std::size_t>(command.size());
-    if (command.ndim() > 1 || (given != 1 && given != rigs_))
-      throw py::value_error("command: one number, or one for each rig");
-    std::vector<double> commands(rigs_, command.data()[0]);
-    if (given == rigs_) commands.assign(command.data(), command.data() + rigs_);
-    for (std::size_t i = 0; i < rigs_; ++i)
-      if (const plant::Rig& rig = rider(i).plant().rig(); !is_command(commands[i], rig))
-        command_within(commands[i], rig, fmt::format("command[{}]", i));
+  const plant::Rig& rig_at(std::size_t i) const { return members_[i].hung.rig; }
+  std::vector<double> zeros() const {
+    std::vector<double> commands;
+    for (const Member& member : members_) commands.push_back(member.hung.rig.valve.zero_command);
     return commands;
   }
-  std::span<const double> of_part(std::span<const double> all, std::size_t part) const {
-    return all.subspan(part * most, parts_[part]->rigs());
+  std::vector<double> all(const Numbers& command) const {
+    const auto given = static_cast<std::size_t>(command.size());
+    if (command.ndim() > 1 || (given != 1 && given != rigs()))
+      throw py::value_error("command: one number, or one for each rig");
+    std::vector<double> commands(rigs(), command.data()[0]);
+    if (given == rigs()) commands.assign(command.data(), command.data() + rigs());
+    for (std::size_t i = 0; i < rigs(); ++i)
+      if (!is_command(commands[i], rig_at(i)))
+        command_within(commands[i], rig_at(i), fmt::format("command[{}]", i));
+    return commands;
+  }
+
+  /// These settle under their commands, up to the present instant, in parts of their own.
+  void begin(const std::vector<std::size_t>& which, std::span<const double> commands) {
+    const std::size_t before = parts_.size();
+    long settling = 0;
+    for (const std::size_t i : which)
+      settling = std::max(settling, std::lround(rig_at(i).settling_time_s / rig_at(i).tick_s));
+    for (std::size_t first = 0; first < which.size(); first += most) {
+      const std::size_t count = std::min(most, which.size() - first);
+      Part& part = parts_.emplace_back();
+      std::vector<ride::Loaded> hanging;
+      std::vector<solver::Settings> settings;
+      for (std::size_t place = 0; place < count; ++place) {
+        const std::size_t i = which[first + place];
+        Member& member = members_[i];
+        member.part = parts_.size() - 1;
+        member.place = place;
+        member.counter.emplace(member.hung.rig);
+        part.rigs.push_back(i);
+        hanging.push_back(member.hung);
+        settings.push_back(member.hung.rig.integrator);
+      }
+      part.rides = std::make_unique<ride::VectorRide>(hanging, settings);
+    }
+    for_each_part(before, [&](std::size_t p) {
+      parts_[p].rides->start(of_part(parts_[p], commands), time_s(ticks_ - settling));
+      for (long k = ticks_ - settling; k < ticks_; ++k) step(parts_[p], commands, k);
+    });
+  }
+  void drop_empty_parts() {
+    std::erase_if(parts_, [](const Part& part) {
+      return std::ranges::all_of(part.rigs, [](std::size_t rig) { return rig == nobody; });
+    });
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (const std::size_t rig : parts_[p].rigs)
+        if (rig != nobody) members_[rig].part = p;
+  }
+
+  std::vector<double> of_part(const Part& part, std::span<const double> commands) const {
+    std::vector<double> mine;
+    for (const std::size_t rig : part.rigs) mine.push_back(rig == nobody ? 0.0 : commands[rig]);
+    return mine;
   }
   void for_each_part(
-      const std::function<void(std::size_t)>& job,
+      std::size_t first, const std::function<void(std::size_t)>& job,
       const std::function<void(std::size_t)>& done = [](std::size_t) {}) const {
-    run::for_each_job(parts_.size(), threads_, job, done);
+    run::for_each_job(
+        parts_.size() - first, threads_, [&](std::size_t p) { job(first + p); }, done);
   }
-  const ride::Rider& rider(std::size_t rig) const { return parts_[rig / most]->rider(rig % most); }
-  const double* state_of(std::size_t rig) const { return &rider(rig).now.flow.state.joint.contraction_ratio; }
-  double read_ratio(std::size_t rig) const { return static_cast<double>(counts_[rig]) * per_count_[rig]; }
-  double time_s(long ticks) const { return static_cast<double>(ticks) * tick_s_; }
+  const double* state_of(std::size_t rig) const {
+    const Member& member = members_[rig];
+    return &parts_[member.part].rides->rider(member.place).now.flow.state.joint.contraction_ratio;
+  }
+  double read_ratio(std::size_t rig) const {
+    return static_cast<double>(members_[rig].counts) * run::contraction_per_count(rig_at(rig));
+  }
+  double time_s(long ticks) const { return static_cast<double>(ticks) * rig_at(0).tick_s; }
 
-  void follow(std::size_t part, std::span<const double> commands, Rows& rows) {
+  void follow(Part& part, std::span<const double> commands, Rows& rows) {
     for (std::size_t k = 0; k < rows.time_s.size(); ++k) {
       if (run::interrupted()) throw run::Interrupted();
-      const std::size_t first = k * rigs_ + part * most;
-      for (std::size_t i = 0; i < parts_[part]->rigs(); ++i) {
-        rows.contraction_ratio[first + i] = read_ratio(part * most + i);
-        std::copy_n(state_of(part * most + i), plant::single_size,
-                    &rows.state[(first + i) * plant::single_size]);
+      for (const std::size_t rig : part.rigs) {
+        if (rig == nobody) continue;
+        const std::size_t at = k * rigs() + rig;
+        rows.contraction_ratio[at] = read_ratio(rig);
+        std::copy_n(state_of(rig), plant::single_size, &rows.state[at * plant::single_size]);
       }
-      step(part, of_part(commands.subspan(k * rigs_, rigs_), part), ticks_ + static_cast<long>(k));
+      step(part, commands.subspan(k * rigs(), rigs()), ticks_ + static_cast<long>(k));
     }
   }
 
   py::dict as_dict(std::unique_ptr<Rows> made) const {
     const Rows& rows = *made;
     const py::capsule owner(made.release(), [](void* kept) { delete static_cast<Rows*>(kept); });
-    const auto ticks = static_cast<py::ssize_t>(rows.time_s.size()), n = static_cast<py::ssize_t>(rigs_);
+    const auto ticks = static_cast<py::ssize_t>(rows.time_s.size()), n = static_cast<py::ssize_t>(rigs());
     constexpr py::ssize_t size = sizeof(double), states = plant::single_size;
     py::dict all;
     all["time_s"] = view(rows.time_s.data(), {ticks}, {size}, owner);
@@ -199,22 +292,19 @@ class Batch {
   }
 
   /// The tick `k` of a part.
-  void step(std::size_t part, std::span<const double> commands, long k) {
-    ride::VectorRide& rides = *parts_[part];
-    rides.step(commands, time_s(k + 1));
-    for (std::size_t i = 0; i < rides.rigs(); ++i)
-      counts_[part * most + i] = counters_[part * most + i].count(rides.rider(i).now.reading.wheel_m);
+  void step(Part& part, std::span<const double> commands, long k) {
+    part.rides->step(of_part(part, commands), time_s(k + 1));
+    for (std::size_t place = 0; place < part.rigs.size(); ++place) {
+      if (part.rigs[place] == nobody) continue;
+      Member& member = members_[part.rigs[place]];
+      member.counts = member.counter->count(part.rides->rider(place).now.reading.wheel_m);
+    }
   }
 
   unsigned threads_;
-  std::size_t rigs_ = 0;
-  std::vector<std::unique_ptr<ride::VectorRide>> parts_;
-  std::vector<plant::PositionReader> counters_;
-  std::vector<std::int64_t> counts_;
-  std::vector<double> per_count_, zero_;
-  plant::CommandUnit unit_{};
-  double tick_s_ = 0.0;
-  long ticks_ = 0, settling_ticks_ = 0;
+  std::vector<Member> members_;
+  std::vector<Part> parts_;
+  long ticks_ = 0;
   bool whole_ = true;
   Turn::Busy busy_{false};
 };
@@ -253,6 +343,14 @@ void add_batch(py::module_& module) {
           py::arg("command") = py::none(), py::kw_only(), py::arg("current_mA") = py::none(),
           "A tick with these commands, one or n. A rig that cannot go on stays where it came to and is "
           "in `failures`; the others go on.")
+      .def(
+          "restart",
+          [](Batch& batch, const std::vector<std::size_t>& which, const py::object& rigs,
+             const Some& loads_kg, const Some& command) { batch.restart(which, rigs, loads_kg, command); },
+          py::arg("which"), py::arg("rigs") = py::none(), py::arg("loads_kg") = py::none(),
+          py::arg("command") = py::none(),
+          "Those of these indices begin again and are settled now, the others go on as they were. `rigs`, "
+          "`loads_kg`: in place of theirs, one for each; `command`: one or n, of all the batch.")
       .def(
           "follow",
           [given](Batch& batch, Some command, const py::object& progress, Some current_mA) {

@@ -70,6 +70,10 @@ void VectorRide::step(std::span<const double> current_mA, double until_s) {
   for (Batch& batch : batches_) batch.run();
 }
 
+void VectorRide::retire(std::size_t rig) {
+  members_[rig]->failure = "retired";
+}
+
 const Rider& VectorRide::rider(std::size_t rig) const {
   return members_[rig]->rider;
 }

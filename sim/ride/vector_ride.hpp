@@ -24,6 +24,8 @@ class VectorRide {
   /// An instant and the way to the next [s]. A rig that cannot go on stays where it came to, and `failure`
   /// says why; the others go on. Throws std::invalid_argument.
   void step(std::span<const double> current_mA, double until_s);
+  /// A rig that stays where it is from now on, and costs nothing.
+  void retire(std::size_t rig);
 
   std::size_t rigs() const { return members_.size(); }
   const Rider& rider(std::size_t rig) const;

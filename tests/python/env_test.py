@@ -1,5 +1,7 @@
 """The environment for learning controllers: its contract, with and without Gymnasium."""
+import enum
 import importlib
+import inspect
 import sys
 import types
 import unittest
@@ -56,8 +58,38 @@ class Env(unittest.TestCase):
         with self.assertRaises(mckibben.InputError):
             mckibben.Env(target={"kind": "sine"})
 
+    def test_rigs_and_targets_are_drawn_from_the_seed(self):
+        env = mckibben.Env(rig=mckibben.env.drawn_rig, target=mckibben.env.drawn_target, duration_s=1.2)
+        drawn = []
+        for seed in (1, 1, 2):
+            env.reset(seed=seed)
+            drawn.append((env.rig.to_dict()["muscle"]["rest_radius"], env.target.tobytes()))
+        self.assertEqual(drawn[0], drawn[1])
+        self.assertNotEqual(drawn[0][0], drawn[2][0])
+        self.assertNotEqual(drawn[0][1], drawn[2][1])
+        several = mckibben.Env(rig=["thesis", {"friction": {"scale": 2.0}}], duration_s=1.2,
+                               target=[{"kind": "sine", "mean": mean, "amplitude": 0.01, "period": "2 s"} for mean in (0.05, 0.1)])
+        seen = {(several.reset(seed=seed), several.rig is several.task.rig[1], round(several.target.mean(), 2))[1:]
+                for seed in range(20)}
+        self.assertEqual(len(seen), 4)
+
     def keeps_gymnasiums_conventions(self, env):
-        """What Gymnasium's own checker of environments asks for."""
+        """What Gymnasium's own checker of environments (1.x: check_env and its passive checks) wants to see."""
+        for space, box in ((env.action_space, True), (env.observation_space, False)):
+            self.assertTrue((space.low.shape, space.high.shape) == (space.shape, space.shape))
+            self.assertTrue((space.low < space.high).all() and numpy.isfinite([space.low, space.high]).all())
+            if box:
+                self.assertTrue((space.low == -space.high).all() and (abs(space.high) <= 1.0).all())
+        parameters = inspect.signature(env.reset).parameters
+        self.assertIsNone(parameters["seed"].default)
+        self.assertIn("options", parameters)
+        self.assertNotIn("return_info", parameters)
+        self.assertFalse(callable(getattr(env, "seed", None)))
+        self.assertIs(env.unwrapped, env)
+        self.assertIsNone(env.spec)
+        env.reset(options={})
+        again = [env.reset(seed=123)[0].tobytes() for _ in range(2)]
+        self.assertEqual(*again)
         states = []
         for seed in (123, 123, 456):
             observation, info = env.reset(seed=seed)
@@ -69,11 +101,14 @@ class Env(unittest.TestCase):
         self.assertNotEqual(states[0], states[2])
         observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
         self.assertIn(observation, env.observation_space)
+        self.assertIsInstance(observation, numpy.ndarray)
+        self.assertTrue(numpy.isfinite(reward))
         self.assertEqual([type(one) for one in (reward, terminated, truncated, info)], [float, bool, bool, dict])
         before = repr(env.np_random.bit_generator.state)
         env.reset()  # goes on with chance where it was
         self.assertNotEqual(repr(env.np_random.bit_generator.state), before)
         self.assertEqual((env.metadata["render_modes"], env.render_mode), ([], None))
+        env.close()
         env.close()
 
     def test_is_one_of_gymnasiums_where_that_is_installed(self):
@@ -81,16 +116,124 @@ class Env(unittest.TestCase):
         gymnasium = types.ModuleType("gymnasium")
         here = mckibben.env.Base
         gymnasium.Env = type("Env", (), {"_np_random": None, "np_random": here.np_random, "unwrapped": here.unwrapped,
-                                         "reset": here.reset})
+                                         "reset": here.reset, "spec": None})
         gymnasium.spaces = types.SimpleNamespace(Box=mckibben.env.Box)
+        gymnasium.registry = {}
+        gymnasium.register = lambda id, **spec: gymnasium.registry.update({id: spec})
+        vector = types.ModuleType("gymnasium.vector")
+        vector.VectorEnv = type("VectorEnv", (), {"reset": here.reset, "np_random": here.np_random})
+        vector.AutoresetMode = enum.Enum("AutoresetMode", {"NEXT_STEP": "NextStep", "SAME_STEP": "SameStep",
+                                                           "DISABLED": "Disabled"})
         try:
-            with mock.patch.dict(sys.modules, {"gymnasium": gymnasium}):
-                module = importlib.reload(mckibben.env)
+            with mock.patch.dict(sys.modules, {"gymnasium": gymnasium, "gymnasium.vector": vector}):
+                module = importlib.reload(importlib.reload(mckibben.env))
             self.assertTrue(issubclass(module.Env, gymnasium.Env))
             self.keeps_gymnasiums_conventions(module.Env())
+            self.assertEqual(set(gymnasium.registry), {"mckibben/Track-v0", "mckibben/TrackDrawn-v0"})
+            for spec in gymnasium.registry.values():
+                for entry, wanted, extra in (("entry_point", gymnasium.Env, {}),
+                                             ("vector_entry_point", vector.VectorEnv, {"num_envs": 2})):
+                    name, made = spec[entry].split(":")
+                    env = getattr(sys.modules[name], made)(**extra, **spec["kwargs"])
+                    self.assertIsInstance(env, wanted)
+                    env.reset(seed=1)
+            self.assertIs(env.metadata["autoreset_mode"], vector.AutoresetMode.NEXT_STEP)
         finally:
             importlib.reload(mckibben.env)
         self.assertFalse(issubclass(mckibben.env.Env, gymnasium.Env))
+
+
+class VectorEnv(unittest.TestCase):
+    def test_members_are_episodes_of_env(self):
+        keys = {"duration_s": 0.6, "jitter": 1e-3, "rig": ["thesis", {"friction": {"scale": 2.0}}]}
+        many = mckibben.VectorEnv(3, **keys)
+        observations, infos = many.reset(seed=5)
+        alone = [mckibben.Env(**keys) for _ in range(3)]
+        rows = [env.reset(seed=5 + i) for i, env in enumerate(alone)]
+        self.assertEqual(infos["load_kg"].tolist(), [info["load_kg"] for _, info in rows])
+        self.assertTrue(infos["_load_kg"].all())
+        for _ in range(49):
+            numpy.testing.assert_allclose(observations, [row[0] for row in rows], atol=1e-3)
+            observations, rewards, terminations, truncations, infos = many.step([[0.2], [0.1], [-0.1]])
+            rows = [env.step([a]) for env, a in zip(alone, (0.2, 0.1, -0.1))]
+            numpy.testing.assert_allclose(rewards, [row[1] for row in rows], atol=0.1)
+        self.assertTrue(truncations.all())
+        self.assertEqual((observations.dtype, observations.shape), (numpy.float32, (3, 4)))
+        self.assertIn(observations, many.observation_space)
+
+    def test_autoreset_modes(self):
+        mode = mckibben.AutoresetMode
+        def until_ended(envs):
+            envs.reset(seed=1)
+            for _ in range(9):
+                result = envs.step([0.0, 0.0])
+            self.assertTrue(result[3].all())
+            return result
+        next_step = mckibben.VectorEnv(2, duration_s=0.12)
+        self.assertEqual(next_step.metadata["autoreset_mode"].value, "NextStep")
+        last = until_ended(next_step)[0]
+        first, rewards, terminations, truncations, infos = next_step.step([0.0, 0.0])
+        self.assertEqual((rewards.tolist(), terminations.any(), truncations.any()), ([0.0, 0.0], False, False))
+        self.assertFalse(numpy.array_equal(first, last))
+        self.assertTrue(infos["_load_kg"].all())
+        self.assertLess(next_step.step([0.0, 0.0])[1].max(), 0.0)
+        same_step = mckibben.VectorEnv(2, duration_s=0.12, autoreset_mode=mode.SAME_STEP)
+        begun, _, _, _, infos = until_ended(same_step)
+        self.assertTrue(infos["_final_obs"].all() and infos["_final_info"].all())
+        numpy.testing.assert_array_equal(infos["final_obs"][0], last[0])
+        self.assertFalse(numpy.array_equal(begun[0], last[0]))
+        self.assertFalse(same_step.step([0.0, 0.0])[3].any())
+        disabled = mckibben.VectorEnv(2, duration_s=0.12, autoreset_mode="Disabled")
+        until_ended(disabled)
+        with self.assertRaisesRegex(RuntimeError, "reset_mask"):
+            disabled.step([0.0, 0.0])
+
+    def test_single_members_begin_again(self):
+        envs = mckibben.VectorEnv(3, duration_s=6.0, autoreset_mode="Disabled")
+        envs.reset(seed=1)
+        other = mckibben.VectorEnv(3, duration_s=6.0)
+        other.reset(seed=1)
+        for _ in range(20):
+            envs.step([0.5] * 3)
+            before = other.step([0.5] * 3)[0]
+        observations, infos = envs.reset(seed=[None, 9, None], options={"reset_mask": numpy.array([False, True, False])})
+        self.assertEqual(infos["_load_kg"].tolist(), [False, True, False])
+        self.assertEqual(observations[[0, 2]].tobytes(), before[[0, 2]].tobytes())
+        for _ in range(10):
+            observations, before = envs.step([0.1] * 3)[0], other.step([0.1] * 3)[0]
+            self.assertEqual(observations[[0, 2]].tobytes(), before[[0, 2]].tobytes())
+        anew = mckibben.VectorEnv(1, duration_s=6.0)
+        anew.reset(seed=9)
+        for _ in range(10):
+            expected = anew.step([0.1])[0]
+        numpy.testing.assert_allclose(observations[1], expected[0], atol=1e-3)
+        for mask in (numpy.array([True]), numpy.array([1, 0, 0]), numpy.zeros(3, dtype=bool)):
+            with self.assertRaisesRegex(ValueError, "reset_mask"):
+                envs.reset(options={"reset_mask": mask})
+
+    def test_one_that_fails_is_terminated_alone(self):
+        falls = {"muscle": {"stop_stiffness": "1e5 N/m"},
+                 "effects": {"residual_law": {"terms": [{"of": "m g", "coefficient": "-800 N"}]}}}
+        envs = mckibben.VectorEnv(8, rig=["thesis", falls], loads_kg=(44.0, 45.0), duration_s=1.2, autoreset_mode="Disabled")
+        envs.reset(seed=0)
+        _, _, terminations, _, infos = envs.step(numpy.zeros(8))
+        self.assertTrue(terminations.any() and not terminations.all())
+        self.assertEqual(terminations.tolist(), infos["_failure"].tolist())
+
+    def test_nonsense_is_refused(self):
+        envs = mckibben.VectorEnv(2, duration_s=0.6)
+        with self.assertRaises(RuntimeError):
+            envs.step([0.0, 0.0])
+        with self.assertRaises(ValueError):
+            envs.reset(seed=[1, 2, 3])
+        envs.reset(seed=1)
+        for bad in ([0.0], [0.0, float("nan")], [0.0] * 3):
+            with self.assertRaises(ValueError):
+                envs.step(bad)
+        with self.assertRaises(ValueError):
+            mckibben.VectorEnv(0)
+        with self.assertRaises(ValueError):
+            mckibben.VectorEnv(1, autoreset_mode="Sometimes")
 
 
 main()

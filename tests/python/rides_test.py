@@ -235,6 +235,30 @@ class Batches(unittest.TestCase):
         self.assertEqual(list(batch.failures), [1])
         self.assertEqual(batch.state[0].tolist(), batch.state[2].tolist())
 
+    def test_some_begin_again_and_the_others_go_on(self):
+        rig, other = mckibben.Rig(), mckibben.Rig({"friction": {"scale": 2.0}})
+        batch, without = mckibben.Batch(rig, self.LOADS), mckibben.Batch(rig, self.LOADS)
+        for k in range(30):
+            batch.step(CURRENTS[k])
+            without.step(CURRENTS[k])
+        batch.restart([3, 20], [rig, other], [9.0, 15.0])
+        anew = mckibben.Batch([rig, other], [9.0, 15.0])
+        for k in range(30):
+            apart = abs(batch.state[[3, 20]] - anew.state).max(axis=0)  # their clocks differ, so do last digits
+            self.assertTrue((apart < [1e-6, 1e-4, 1.0, 1.0, 1e-7]).all(), apart)
+            batch.step(CURRENTS[k])
+            without.step(CURRENTS[k])
+            anew.step(CURRENTS[k])
+        going = [i for i in range(40) if i not in (3, 20)]
+        self.assertEqual(batch.state[going].tobytes(), without.state[going].tobytes())
+        batch.restart(list(range(40)))  # all leave their places
+        batch.step(9.0)
+        self.assertEqual(batch.follow(numpy.full((5, 40), 9.0))["state"].shape, (5, 40, 5))
+        for bad in (lambda: batch.restart([40]), lambda: batch.restart([1, 1]), lambda: batch.restart([1], None, [1.0, 2.0]),
+                    lambda: batch.restart([1], [{"tick": "10 ms"}]), lambda: batch.restart([1], ["thesis_pair"])):
+            with self.assertRaises((ValueError, IndexError)):
+                bad()
+
     def test_nonsense_is_refused(self):
         batch = mckibben.Batch("thesis", [11.0, 12.0])
         for bad in (lambda: mckibben.Batch([], [11.0]), lambda: mckibben.Batch("thesis", [-1.0]),

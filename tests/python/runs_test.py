@@ -10,6 +10,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import xml.dom.minidom
 from unittest import mock
 
 import numpy
@@ -39,6 +40,16 @@ class Runs(unittest.TestCase):
             written = json.loads(pathlib.Path(folder, "out", "run.json").read_text())
             self.assertEqual(self.result.to_dict()["runs"], written["runs"])
             self.assertEqual(str(self.result), pathlib.Path(folder, "out", "table.txt").read_text())
+
+    def test_notebooks_show_a_table_with_each_motion(self):
+        page = self.result._repr_html_()
+        self.assertEqual(page.count("<tr>"), 1 + len(self.result))
+        self.assertEqual(page.count("<polyline"), len(self.result))
+        run = self.result[0]
+        self.assertIn(f"<td>{run.name}</td>", page)
+        self.assertIn(f"{run.metrics['rmse']:.5f}", run._repr_html_())
+        self.assertIn(f"{run['contraction_ratio'].min():.4g} to {run['contraction_ratio'].max():.4g}", page)
+        xml.dom.minidom.parseString(f"<div>{page}</div>")
 
     def test_arrays_are_copies(self):
         run = mckibben.Scenario(SCENARIO).run()[0]

@@ -11,10 +11,14 @@ Numbers are SI, gauge pressures, commands in what the valve takes (the thesis's:
 from ._core import (Batch, Calibration, Dataset, Diagnosis, Linear, Reading, Result, Ride, Rig, Run, SavedRide,
                     Scenario)
 from ._core import version as __version__
-from .env import Env
+from .env import AutoresetMode, Env, VectorEnv
 from .errors import Error, InputError, InputWarning, MissingInput, NumericalFailure, Problem, UnfitData
+from .html import show as _show
+
+_show(Result, Run)
 
 Flock = Batch  #: its name until it was called after what it is
 
-__all__ = ["Batch", "Calibration", "Dataset", "Diagnosis", "Env", "Error", "Flock", "InputError", "InputWarning", "Linear",
-           "MissingInput", "NumericalFailure", "Problem", "Reading", "Result", "Ride", "Rig", "Run", "SavedRide", "Scenario", "UnfitData"]
+__all__ = ["AutoresetMode", "Batch", "Calibration", "Dataset", "Diagnosis", "Env", "Error", "Flock", "InputError", "InputWarning", "Linear",
+           "MissingInput", "NumericalFailure", "Problem", "Reading", "Result", "Ride", "Rig", "Run", "SavedRide",
+           "Scenario", "UnfitData", "VectorEnv"]

@@ -1,21 +1,26 @@
 """The rig as an environment for learning controllers, in the manner of Gymnasium: reset, step, spaces.
 
-Gymnasium is not needed. Where it is installed, Env is one of its environments and the spaces are its own.
+Gymnasium is not needed. Where it is installed, Env and VectorEnv are its environments, with ids: Track-v0, and
+TrackDrawn-v0, whose rigs and targets are drawn.
 """
+import enum
 import math
 
 import numpy
 
-from ._core import Ride, Rig, Scenario
+from ._core import Batch, Ride, Rig, Scenario
 from .errors import NumericalFailure
 
 try:
     import gymnasium
     Base, Box = gymnasium.Env, gymnasium.spaces.Box
 except ImportError:
+    gymnasium = None
+
     class Base:
         """What Env has of Gymnasium's Env: chance, by a seed."""
         _np_random = None
+        spec = None
 
         @property
         def np_random(self):
@@ -58,6 +63,108 @@ except ImportError:
         def __repr__(self):
             return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
 
+try:
+    from gymnasium.vector import AutoresetMode
+    from gymnasium.vector import VectorEnv as VectorBase
+except ImportError:
+    VectorBase = Base
+
+    class AutoresetMode(enum.Enum):
+        """When a member whose episode has ended is reset, as Gymnasium 1.1 names it."""
+        NEXT_STEP = "NextStep"
+        SAME_STEP = "SameStep"
+        DISABLED = "Disabled"
+
+
+def _one_of(several, random):
+    """One of a list, by chance; what a function of chance makes; or itself."""
+    if callable(several):
+        return several(random)
+    if isinstance(several, (list, tuple)):
+        return several[int(random.integers(len(several)))]
+    return several
+
+
+class _Task:
+    """What episodes have in common, and what is drawn for each."""
+    TARGET = {"kind": "sine", "mean": 0.1, "amplitude": 0.05, "period": "4 s"}
+    MOST, FASTEST = 0.5, 20.0  # contraction ratio [1] that no braid reaches, its speed [1/s]
+
+    def __init__(self, rig, loads_kg, target, duration_s, jitter):
+        if isinstance(rig, (list, tuple)):
+            self.rig = [self.made(one) for one in rig]
+        else:
+            self.rig = rig if callable(rig) else self.made(rig)
+        if len(loads_kg) != 2:
+            raise ValueError("loads_kg: the lightest and the heaviest load")
+        self.loads_kg = tuple(sorted(map(float, loads_kg)))
+        self.target, self.duration_s, self.jitter = target or self.TARGET, float(duration_s), float(jitter)
+        rigs = self.rig if isinstance(self.rig, list) else [] if callable(self.rig) else [self.rig]
+        most = max((one.largest_contraction_ratio for one in rigs), default=self.MOST)
+        self.action_space = Box(numpy.float32([-1.0]), numpy.float32([1.0]))
+        self.observation_space = Box(numpy.float32([-most, -self.FASTEST, -1.0, -1.0]),
+                                     numpy.float32([2.0 * most, self.FASTEST, 1.0, 1.0]))
+        self.fixed = None
+        _, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
+        if isinstance(self.rig, Rig) and isinstance(self.target, dict):
+            self.fixed = drawn
+
+    @staticmethod
+    def made(rig):
+        return rig if isinstance(rig, Rig) else Rig(rig)
+
+    def draw(self, random, options):
+        """Rig, load [kg] and target of an episode."""
+        rig = self.made(_one_of(self.rig, random))
+        target = _one_of(self.target, random)
+        load_kg = float(options.get("load_kg", random.uniform(*self.loads_kg)))
+        if self.fixed is not None:
+            return rig, load_kg, self.fixed
+        unit = rig.command_unit  # whoever is to follow it: a scenario wants a controller
+        anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
+        scenario = Scenario({"rig": rig, "loads": [f"{load!r} kg" for load in sorted(set(self.loads_kg))],
+                             "target": target, "duration": f"{self.duration_s!r} s", "controllers": [anybody]})
+        return rig, load_kg, scenario.target
+
+
+class _Episode:
+    """Where one stands: its numbers as they are read, and rewarded."""
+
+    def __init__(self, task, random, options):
+        self.task, self.random = task, random
+        self.rig, self.load_kg, self.target = task.draw(random, options)
+        self.zero, self.span = self.rig.command_range
+        self.tick, self.action, self.last = 0, -1.0, 0.0
+        self.info = {"load_kg": self.load_kg, "time_s": 0.0}
+
+    def begin(self, counted):
+        self.last = self.read(counted)
+        return self.observation(0.0)
+
+    def command(self, action):
+        """What the DAC gives for an action."""
+        self.action = min(1.0, max(-1.0, action))
+        return self.rig.dac_output(self.zero + 0.5 * (self.action + 1.0) * (self.span - self.zero))
+
+    def arrive(self, counted):
+        """A tick later: observation, reward, whether it was the last tick."""
+        self.tick += 1
+        before, self.last = self.last, self.read(counted)
+        reward = -100.0 * abs(self.last - self.target[self.tick])
+        return self.observation((self.last - before) / self.rig.tick_s), float(reward), self.over()
+
+    def over(self):
+        return self.tick + 1 >= len(self.target)
+
+    def read(self, counted):
+        jitter = self.task.jitter
+        return counted + jitter * self.random.standard_normal() if jitter else counted
+
+    def observation(self, speed_per_s):
+        space = self.task.observation_space
+        seen = numpy.float32([self.last, speed_per_s, self.target[self.tick], self.action])
+        return numpy.clip(seen, space.low, space.high)
+
 
 class Env(Base):
     """Follow a target with an unknown load: an episode is one run.
@@ -80,64 +187,54 @@ class Env(Base):
 
     metadata = {"render_modes": []}
     render_mode = None
-    TARGET = {"kind": "sine", "mean": 0.1, "amplitude": 0.05, "period": "4 s"}
 
     def __init__(self, rig="thesis", loads_kg=(8.0, 23.0), target=None, duration_s=12.0, jitter=0.0):
-        """`loads_kg`: between these each episode draws its load. `target`: as in scenario files. `jitter`: root mean
+        """`rig`, `target` (as in scenario files): one, a list of which each episode draws one, or a function that makes
+        one of a numpy.random.Generator. `loads_kg`: between these each episode draws its load. `jitter`: root mean
         square of what shakes the reading, as a contraction ratio [1]. Raises InputError, ValueError."""
-        self.rig = rig if isinstance(rig, Rig) else Rig(rig)
-        if len(loads_kg) != 2:
-            raise ValueError("loads_kg: the lightest and the heaviest load")
-        lightest, heaviest = sorted(map(float, loads_kg))
-        # Whoever is to follow it: a scenario wants a controller.
-        unit = self.rig.command_unit
-        anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
-        scenario = Scenario({"rig": self.rig, "loads": [f"{load!r} kg" for load in sorted({lightest, heaviest})],
-                             "target": target or self.TARGET, "duration": f"{float(duration_s)!r} s",
-                             "controllers": [anybody]})
-        self.target = scenario.target
-        self.loads_kg, self.jitter = (lightest, heaviest), float(jitter)
-        self.zero, self.span = self.rig.command_range
-        self.given = "current_mA" if unit == "mA" else f"command_{unit}"
-        self.action_space = Box(numpy.float32([-1.0]), numpy.float32([1.0]))
-        most, fastest = self.rig.largest_contraction_ratio, 20.0
-        self.observation_space = Box(numpy.float32([-most, -fastest, -1.0, -1.0]),
-                                     numpy.float32([2.0 * most, fastest, 1.0, 1.0]))
-        self.ride = None
+        self.task = _Task(rig, loads_kg, target, duration_s, jitter)
+        self.action_space, self.observation_space = self.task.action_space, self.task.observation_space
+        self.loads_kg = self.task.loads_kg
+        self.episode = self.ride = None
+
+    @property
+    def rig(self):
+        """Of this episode; before the first one as it was given."""
+        return self.episode.rig if self.episode else self.task.rig
+
+    @property
+    def target(self):
+        """Of this episode, tick by tick [1]; before the first one that of all, if there is one."""
+        return self.episode.target if self.episode else self.task.fixed
 
     def reset(self, *, seed=None, options=None):
-        """A new episode: (observation, info). `seed` decides its load and its jitter; `options` may say
+        """A new episode: (observation, info). `seed` decides its rig, target, load and jitter; `options` may say
         {"load_kg": ...}. The same seed, the same episode."""
         super().reset(seed=seed)
-        drawn_kg = float(self.np_random.uniform(*self.loads_kg))
-        load_kg = float((options or {}).get("load_kg", drawn_kg))
-        self.ride = Ride(self.rig, load_kg=load_kg)
-        self.tick, self.last, self.action = 0, self._read(), -1.0
-        return self._observation(0.0), {"load_kg": load_kg, "time_s": 0.0}
+        self.episode = _Episode(self.task, self.np_random, options or {})
+        self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
+        return self.episode.begin(self.ride.reading.contraction_ratio), dict(self.episode.info)
 
     def step(self, action):
         """A tick: (observation, reward, terminated, truncated, info)."""
         if self.ride is None:
             raise RuntimeError("reset comes before the first step")
-        if self.tick + 1 >= len(self.target):
+        if self.episode.over():
             raise RuntimeError("the episode has ended; reset begins another one")
         values = numpy.asarray(action, dtype=float).reshape(-1)
         if values.size != 1 or not math.isfinite(values[0]):
             raise ValueError("an action is one finite number")
-        self.action = min(1.0, max(-1.0, float(values[0])))
-        command = self.rig.dac_output(self.zero + 0.5 * (self.action + 1.0) * (self.span - self.zero))
-        info = {self.given: command}
+        command = self.episode.command(float(values[0]))
+        unit = self.episode.rig.command_unit
+        info = {"current_mA" if unit == "mA" else f"command_{unit}": command}
         terminated = False
         try:
             self.ride.step(command)
         except NumericalFailure as failure:
             terminated, info["failure"] = True, str(failure)
-        self.tick += 1
-        before, self.last = self.last, self._read()
-        observation = self._observation((self.last - before) / self.rig.tick_s)
+        observation, reward, truncated = self.episode.arrive(self.ride.reading.contraction_ratio)
         info.update(time_s=self.ride.time_s, true_contraction_ratio=float(self.ride.state[0]))
-        reward = -100.0 * abs(self.last - self.target[self.tick])
-        return observation, float(reward), terminated, self.tick + 1 >= len(self.target), info
+        return observation, reward, terminated, truncated, info
 
     def render(self):
         """Nothing is drawn."""
@@ -145,10 +242,156 @@ class Env(Base):
     def close(self):
         """Nothing is kept open."""
 
-    def _read(self):
-        counted = self.ride.reading.contraction_ratio
-        return counted + self.jitter * self.np_random.standard_normal() if self.jitter else counted
 
-    def _observation(self, speed_per_s):
-        seen = numpy.float32([self.last, speed_per_s, self.target[self.tick], self.action])
-        return numpy.clip(seen, self.observation_space.low, self.observation_space.high)
+class VectorEnv(VectorBase):
+    """Many episodes at once in a Batch, each with rig, load and target of its own; arrays with a row for each.
+
+    A member whose episode has ended is reset in the next step (its action is ignored, its reward is 0), in the same
+    step (the last observation is in infos["final_obs"]), or by reset(options={"reset_mask": ...}): `autoreset_mode`.
+
+    >>> import mckibben
+    >>> envs = mckibben.VectorEnv(3, duration_s=1.2)
+    >>> observations, infos = envs.reset(seed=3)
+    >>> observations.shape, infos["load_kg"].shape
+    ((3, 4), (3,))
+    """
+
+    render_mode = None
+
+    def __init__(self, num_envs=1, rig="thesis", loads_kg=(8.0, 23.0), target=None, duration_s=12.0, jitter=0.0,
+                 autoreset_mode=AutoresetMode.NEXT_STEP, threads=1):
+        """As Env; rigs of one batch have the same tick and are commanded in the same unit."""
+        self.task = _Task(rig, loads_kg, target, duration_s, jitter)
+        self.num_envs, self.threads = int(num_envs), threads
+        if self.num_envs < 1:
+            raise ValueError("num_envs: one at least")
+        self.autoreset_mode = AutoresetMode(getattr(autoreset_mode, "value", autoreset_mode))
+        self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
+        self.single_action_space, self.single_observation_space = self.task.action_space, self.task.observation_space
+        self.action_space = self._many(self.single_action_space)
+        self.observation_space = self._many(self.single_observation_space)
+        self.episodes, self.batch = [None] * self.num_envs, None
+        self.random = [numpy.random.default_rng() for _ in self.episodes]
+        self.ended = numpy.zeros(self.num_envs, dtype=bool)
+
+    def _many(self, space):
+        low, high = (numpy.repeat(end[None], self.num_envs, axis=0) for end in (space.low, space.high))
+        return Box(low, high, dtype=numpy.float32)
+
+    def reset(self, *, seed=None, options=None):
+        """New episodes: (observations, infos). A seed is that of the first member, the next one has seed + 1; or one
+        for each. With options {"reset_mask": booleans} these alone begin again, and the others stay where they are."""
+        super().reset(seed=seed if isinstance(seed, int) else None)
+        options = dict(options or {})
+        mask = options.pop("reset_mask", None)
+        if mask is not None:
+            mask = numpy.asarray(mask)
+            if mask.shape != (self.num_envs,) or mask.dtype != bool or not mask.any():
+                raise ValueError("reset_mask: a boolean for each member, one of them true")
+        if self.batch is None or mask is None:
+            mask = numpy.ones(self.num_envs, dtype=bool)
+        if numpy.ndim(seed) == 0:
+            seed = [None if seed is None else seed + i for i in range(self.num_envs)]
+        seeds = list(seed)
+        if len(seeds) != self.num_envs:
+            raise ValueError("seed: one number, or one for each member")
+        for i in numpy.flatnonzero(mask):
+            if seeds[i] is not None:
+                self.random[i] = numpy.random.default_rng(seeds[i])
+        infos = {}
+        self.observations = self._begin(numpy.flatnonzero(mask), options, infos)
+        return self.observations.copy(), infos
+
+    def step(self, actions):
+        """A tick of all: (observations, rewards, terminations, truncations, infos)."""
+        if self.batch is None:
+            raise RuntimeError("reset comes before the first step")
+        if self.autoreset_mode == AutoresetMode.DISABLED and self.ended.any():
+            raise RuntimeError("an episode has ended; reset(options={'reset_mask': ...}) begins another one")
+        actions = numpy.asarray(actions, dtype=float).reshape(-1)
+        if actions.size != self.num_envs or not numpy.isfinite(actions).all():
+            raise ValueError("actions are a finite number for each member")
+        waiting, infos = self.ended.copy(), {}
+        self.batch.step([one.command(action) for one, action in zip(self.episodes, actions)])
+        rewards = numpy.zeros(self.num_envs)
+        terminations, truncations = (numpy.zeros(self.num_envs, dtype=bool) for _ in range(2))
+        counted, failures = self.batch.contraction_ratio, self.batch.failures
+        for i in numpy.flatnonzero(~waiting):
+            self.observations[i], rewards[i], truncations[i] = self.episodes[i].arrive(counted[i])
+            terminations[i] = i in failures
+            self._note(infos, i, {"time_s": self.episodes[i].tick * self.episodes[i].rig.tick_s})
+            if terminations[i]:
+                self._note(infos, i, {"failure": failures[i]})
+        self.ended = terminations | truncations
+        if self.autoreset_mode == AutoresetMode.SAME_STEP:
+            waiting = self.ended
+            final = {}
+            for i in numpy.flatnonzero(waiting):
+                self._note(infos, i, {"final_obs": self.observations[i].copy()})
+                self._note(final, i, {"time_s": infos["time_s"][i]})
+            if final:
+                infos["final_info"], infos["_final_info"] = final, waiting.copy()
+        if self.autoreset_mode != AutoresetMode.DISABLED and waiting.any():
+            self._begin(numpy.flatnonzero(waiting), {}, infos)
+        return self.observations.copy(), rewards, terminations, truncations, infos
+
+    def render(self):
+        """Nothing is drawn."""
+
+    def close(self, **kwargs):
+        """Nothing is kept open."""
+
+    def _begin(self, which, options, infos):
+        """New episodes of these members; all observations."""
+        for i in which:
+            self.episodes[i] = _Episode(self.task, self.random[i], options)
+        rigs, loads_kg = [self.episodes[i].rig for i in which], [self.episodes[i].load_kg for i in which]
+        if len(which) == self.num_envs:
+            self.batch = Batch(rigs, loads_kg, self.threads)
+            self.observations = numpy.zeros(self.observation_space.shape, dtype=numpy.float32)
+        else:
+            self.batch.restart(which, rigs, loads_kg)
+        counted = self.batch.contraction_ratio
+        for i in which:
+            self.observations[i] = self.episodes[i].begin(counted[i])
+            self._note(infos, i, self.episodes[i].info)
+        self.ended = self.ended.copy()
+        self.ended[which] = False
+        return self.observations
+
+    def _note(self, infos, member, info):
+        """Gymnasium's infos: an array for each key, and behind an underscore who has it."""
+        for key, value in info.items():
+            if key not in infos:
+                number = isinstance(value, float)
+                infos[key] = numpy.zeros(self.num_envs) if number else numpy.full(self.num_envs, None, dtype=object)
+                infos["_" + key] = numpy.zeros(self.num_envs, dtype=bool)
+            infos[key][member], infos["_" + key][member] = value, True
+
+
+def drawn_rig(random):
+    """The thesis's rig, but threads with half to twice the friction, a muscle up to a tenth thinner or thicker, a valve
+    up to a third slower or quicker."""
+    def factor(most):
+        return float(most ** random.uniform(-1.0, 1.0))
+
+    return {"base": "thesis", "friction": {"scale": factor(2.0)},
+            "muscle": {"rest_radius": f"{7.5 * factor(1.1)!r} mm"},
+            "valve": {"conductance": f"{4e-9 * factor(1.33)!r} m3/(s.Pa)"}}
+
+
+def drawn_target(random):
+    """A sine about some contraction, slow or quick."""
+    return {"kind": "sine", "mean": float(random.uniform(0.06, 0.12)), "amplitude": float(random.uniform(0.01, 0.05)),
+            "period": f"{float(random.uniform(2.0, 8.0))!r} s"}
+
+
+def _register():
+    for name, kwargs in {"Track-v0": {}, "TrackDrawn-v0": {"rig": drawn_rig, "target": drawn_target}}.items():
+        if f"mckibben/{name}" not in gymnasium.registry:
+            gymnasium.register(id=f"mckibben/{name}", entry_point="mckibben.env:Env",
+                               vector_entry_point="mckibben.env:VectorEnv", kwargs=kwargs)
+
+
+if gymnasium is not None:
+    _register()
