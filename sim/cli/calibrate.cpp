@@ -42,7 +42,7 @@ int calibrate_dataset(const CalibrateOptions& options) {
   if (!options.rig.empty())
     tasks::replace_rig(measured, options.rig, input::read_rig(options.rig, measured.inputs));
   const domain::Dataset dataset = tasks::ticked(std::move(measured), say);
-  Job job(options, "calibrate " + options.dataset, output::name_of(dataset) + "-calibration", dataset.inputs);
+  Job job(options, "calibrate " + options.dataset, output::name_of(dataset) + "-calibrate", dataset.inputs);
   const thesis::CalibrationResult result = thesis::calibrate(dataset, options.fits);
   if (run::interrupted()) throw run::Interrupted();
   warn(output::warnings_of(result, options.fits));
@@ -60,7 +60,9 @@ int calibrate_dataset(const CalibrateOptions& options) {
     job.write("figures/" + figure.file_name() + ".csv", output::csv_of(figure));
     job.write("figures/" + figure.file_name() + ".svg", output::chart_svg(figure));
   }
-  return job.finish({document, report}, done);
+  return job.finish(
+      {document, report}, done,
+      job.has_folder() ? fmt::format("map {}", (job.where() / "calibration.yaml").string()) : "");
 }
 
 }  // namespace
@@ -71,7 +73,7 @@ void add_calibrate(CLI::App& app, Asked& asked) {
                             "Fit the thesis's friction and pressure models to a data set; draw its figures");
   CalibrateOptions& options = asked.when(verb, calibrate_dataset);
   add_measured(verb, options.dataset);
-  add_common(verb, options);
+  add_common(verb, options, "out/<name>-calibrate");
   add_rig(verb, options.rig, "instead of the data set's");
   verb.add_flag("--kgf", options.kgf, "Pressures of figures and report in kgf/m2, as the thesis prints them");
   add_choice(verb, "--pressure", options.fits.processing.pressure,

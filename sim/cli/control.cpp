@@ -217,7 +217,7 @@ int show(const ControlOptions& options, const Scenario& scenario, const bench::R
 /// Drives the device, and records: rows as they come, all as a data set at the end.
 int on_bench(const ControlOptions& options, const Scenario& scenario, const run::Briefing& briefing,
              std::unique_ptr<controllers::Controller> controller, bench::LoopPlan plan) {
-  Job job(options, "control " + options.scenario, scenario.name + "-bench", scenario.inputs);
+  Job job(options, "control " + options.scenario, scenario.name + "-control", scenario.inputs);
   const controllers::Knowledge& known = briefing.knowledge.front();
   output::Unfinished rows(job.where(), "bench.csv", head_of(scenario), say);
   describe(rows, scenario);
@@ -285,7 +285,7 @@ void add_control(CLI::App& app, Asked& asked) {
   ControlOptions& options = asked.when(verb, control);
   add_input(verb, options.scenario, "scenario", "Scenario file with one load and one controller",
             "SCENARIO.yaml");
-  add_out(verb, options, "out/<name>-bench");
+  add_out(verb, options, "out/<name>-control");
   add_json(verb, options);
   verb.add_option("--device", options.device, "What is driven (default: simulated)")
       ->check(one_of("device", {"simulated", "serial", "comedi"}))

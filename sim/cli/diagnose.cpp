@@ -65,7 +65,7 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   identify::Simulated known;
   if (!options.resume.empty())
     known = tasks::simulated_in(std::filesystem::path(options.resume) / tasks::kept_search, data.inputs);
-  Job job(options, "diagnose " + options.dataset, "diagnose-" + name, data.inputs);
+  Job job(options, "diagnose " + options.dataset, name + "-diagnose", data.inputs);
   tasks::Found found;
   try {
     const tasks::Diagnosing how{options.threads, options.seed.value_or(1), options.time_limit_s, warnings,
@@ -92,7 +92,10 @@ int diagnose_dataset(const DiagnoseOptions& options) {
                                 ? ""
                                 : fmt::format("\nTo go on from here:\n  mckibben diagnose {} --resume {}\n",
                                               options.dataset, job.where().string());
-  const int status = job.finish({document, output::table_of(data, diagnosis) + files + go_on}, done);
+  const int status = job.finish({document, output::table_of(data, diagnosis) + files + go_on}, done,
+                                job.has_folder() && diagnosis.ended == diagnose::Ended::no
+                                    ? fmt::format("replay {} --rig {}", options.dataset, file("rig.yaml"))
+                                    : "");
   write_plan(options.plan, data, diagnosis);
   return status;
 }
@@ -105,7 +108,7 @@ void add_diagnose(CLI::App& app, Asked& asked) {
       "Find where model and data disagree; name the missing effect, add it, show the error before and after");
   DiagnoseOptions& options = asked.when(verb, diagnose_dataset);
   add_measured(verb, options.dataset);
-  add_common(verb, options);
+  add_common(verb, options, "out/<name>-diagnose");
   add_rig(verb, options.rig, "instead of the data set's");
   add_hypotheses_option(verb, options.hypotheses, "join the catalogue");
   add_seed(verb, options, "the resampling (default: 1)");
@@ -122,7 +125,7 @@ void add_diagnose(CLI::App& app, Asked& asked) {
       "Examples:\n"
       "  mckibben diagnose measured/\n"
       "  mckibben diagnose measured/ --time-limit '20 min'\n"
-      "  mckibben diagnose measured/ --resume out/diagnose-measured\n"
+      "  mckibben diagnose measured/ --resume out/measured-diagnose\n"
       "  mckibben diagnose measured/ --out diagnosis --plan next.yaml\n"
       "  mckibben diagnose measured/ --hypothesis my_law.yaml\n"
       "Writes report.html (to read), rig.yaml (the corrected rig, for run and replay) and diagnosis.json;\n"

@@ -195,7 +195,8 @@ int check_files(const CheckOptions& options) {
   for (const auto& path : options.files) read.push_back({path, ""});
   Job job(options, "check", std::nullopt, read);
   job.write("check.json", document);
-  return job.finish({document, ""}, status);
+  const bool data = options.files.size() == 1 && !findings.front().value("looked_at", "").empty();
+  return job.finish({document, ""}, status, data ? "replay " + options.files.front() : "");
 }
 
 /// docs/reference.md.

@@ -104,13 +104,13 @@ run::MapPlan plan_of(const MapOptions& options, std::vector<domain::InputFile>& 
   return plan;
 }
 
-/// map-, the calibration or its folder, and the rig if one is given.
+/// The calibration or its folder, the rig if one is given, -map.
 std::string name_of(const MapOptions& options) {
   const auto file = std::filesystem::absolute(options.calibration).lexically_normal();
   const std::string stem = file.stem().string(), home = file.parent_path().filename().string();
-  std::string name = fmt::format("map-{}", stem == "calibration" && !home.empty() ? home : stem);
-  if (options.rig.empty()) return name;
-  return fmt::format("{}-{}", name, std::filesystem::path(options.rig).stem().string());
+  const std::string name = stem == "calibration" && !home.empty() ? home : stem;
+  if (options.rig.empty()) return name + "-map";
+  return fmt::format("{}-{}-map", name, std::filesystem::path(options.rig).stem().string());
 }
 
 /// Tells the job how many targets are finished.
@@ -157,7 +157,7 @@ void add_map(CLI::App& app, Asked& asked) {
   MapOptions& options = asked.when(verb, map_errors);
   add_input(verb, options.calibration, "calibration", "Calibration file that `calibrate` wrote",
             "CALIBRATION");
-  add_common(verb, options);
+  add_common(verb, options, "out/<calibration>-map");
   verb.add_option_function<std::vector<std::string>>(
           "--load",
           [&options](const std::vector<std::string>& texts) {
@@ -182,7 +182,7 @@ void add_map(CLI::App& app, Asked& asked) {
   verb.footer(
       "Examples:\n"
       "  mckibben map scenarios/thesis_calibration.yaml --load \"16.138 kg\" --up\n"
-      "  mckibben map out/thesis_campaign-calibration/calibration.yaml --load \"8.87 kg\" "
+      "  mckibben map out/thesis_campaign-calibrate/calibration.yaml --load \"8.87 kg\" "
       "--extrapolate-load\n"
       "Writes map.csv, table.txt, map.json and a picture for each load.\n");
 }

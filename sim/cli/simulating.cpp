@@ -208,7 +208,8 @@ int replay_dataset(const ReplayOptions& options) {
   job.write("run.json", document);
   job.write("table.txt", table);
   job.write("report.html", report::report_html(dataset, runs, warnings));
-  return job.finish({document, table}, any_failed(runs) ? failure : done);
+  return job.finish({document, table}, any_failed(runs) ? failure : done,
+                    options.rig.empty() ? "diagnose " + options.dataset : "");
 }
 
 }  // namespace
@@ -235,7 +236,7 @@ void add_replay(CLI::App& app, Asked& asked) {
       add_verb(app, "replay", to_compare, "Simulate a data set's runs with their recorded currents; compare");
   ReplayOptions& options = asked.when(verb, replay_dataset);
   add_measured(verb, options.dataset);
-  add_common(verb, options);
+  add_common(verb, options, "out/<name>-replay");
   add_rig(verb, options.rig, "instead of the data set's");
   add_formats(verb, options.formats);
   verb.footer(

@@ -74,6 +74,30 @@ std::vector<std::size_t> sorted(const std::vector<double>& stamps) {
   return one_record ? rows : std::vector<std::size_t>{};
 }
 
+/// Stamps that lie evenly but for their rounding, as 0.01, 0.02, 0.04 of 12 ms: they lie evenly then.
+bool even_out(std::vector<double>& stamps) {
+  constexpr double of_a_step = 0.01;      // less does not matter
+  constexpr std::size_t least_rows = 20;  // fewer may lie evenly by chance
+  if (stamps.size() < least_rows) return false;
+  const std::size_t steps = stamps.size() - 1;
+  const double step = (stamps.back() - stamps.front()) / static_cast<double>(steps);
+  const auto even = [&](std::size_t row) { return stamps.front() + step * static_cast<double>(row); };
+  double off = 0.0;
+  for (std::size_t row = 0; row <= steps; ++row) off = std::max(off, std::abs(stamps[row] - even(row)));
+  if (!(off > of_a_step * step) || off > step) return false;
+  double grid = std::pow(10.0, std::ceil(std::log10(step)));
+  const auto on_grid = [&](double stamp) {
+    constexpr double digits = 1e-6;
+    return std::abs(std::remainder(stamp, grid)) <= digits * grid;
+  };
+  for (; grid > off && !std::ranges::all_of(stamps, on_grid); grid /= 10.0) continue;
+  if (grid < off) return false;
+  std::vector<double> spread;
+  for (std::size_t row = 0; row <= steps; ++row) spread.push_back(even(row));
+  stamps = std::move(spread);
+  return true;
+}
+
 std::string times(std::size_t number, const char* one, const char* many) {
   return fmt::format("{} {}", number, number == 1 ? one : many);
 }
@@ -139,6 +163,38 @@ RowOrder order_of_rows(const std::vector<double>& stamps, const std::function<bo
                     "rows are left out: their time is missing, or not between their neighbours'"));
   order.note = fmt::format("{}", fmt::join(notes, "; "));
   return order;
+}
+
+Spread spread(std::vector<double>& stamps) {
+  std::size_t repeats = 0;
+  for (std::size_t row = 1; row < stamps.size(); ++row) {
+    if (!(stamps[row] >= stamps[row - 1])) return {};
+    repeats += stamps[row] == stamps[row - 1] ? 1 : 0;
+  }
+  if (stamps.empty() || stamps.front() == stamps.back()) return {};
+  if (repeats == 0) return {0, even_out(stamps)};
+  // Groups of one stamp; those between the first and the last say how far apart rows are.
+  std::vector<std::size_t> begins;
+  for (std::size_t row = 0; row < stamps.size(); ++row)
+    if (row == 0 || stamps[row] != stamps[row - 1]) begins.push_back(row);
+  const std::size_t last = begins.back(), groups = begins.size();
+  const bool coarse = repeats > stamps.size() / 10;  // else single stamps repeat
+  const double inner =
+      coarse && groups > 2 ? (stamps[last] - stamps[begins[1]]) / static_cast<double>(last - begins[1]) : 0.0;
+  const std::vector<double> read = stamps;
+  for (std::size_t group = 0; group < groups; ++group) {
+    const std::size_t row = begins[group], end = group + 1 < groups ? begins[group + 1] : stamps.size();
+    const auto rows = static_cast<double>(end - row);
+    const bool is_last = group + 1 == groups;
+    const double whole =
+        is_last ? (groups > 1 ? read[row] - read[begins[group - 1]] : 0.0) : read[end] - read[row];
+    double step =
+        is_last && inner == 0.0 ? whole / static_cast<double>(row - begins[group - 1]) : whole / rows;
+    if (inner > 0.0 && (group == 0 || is_last)) step = std::min(step, inner);  // it may be a part of one
+    const double first = group == 0 ? read[row] + whole - step * rows : read[row];
+    for (std::size_t k = row; k < end; ++k) stamps[k] = first + step * static_cast<double>(k - row);
+  }
+  return {repeats, false};
 }
 
 }  // namespace mckibben::input

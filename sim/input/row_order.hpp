@@ -1,4 +1,4 @@
-// Rows of a table in the order of the clock that stamped them.
+// Rows of a table in the order of the clock that stamped them, and its stamps as far as it can tell them.
 #pragma once
 
 #include <cstddef>
@@ -25,5 +25,12 @@ struct RowOrder {
 /// `stamps`: in any unit, NaN where a row has none. `same`: whether row k repeats all readings of the one
 /// before.
 RowOrder order_of_rows(const std::vector<double>& stamps, const std::function<bool(std::size_t)>& same);
+
+/// Stamps of a coarse clock: what repeats, or is rounded, lies evenly then.
+struct Spread {
+  std::size_t repeats = 0;  ///< stamps that repeat the one before
+  bool rounded = false;
+};
+Spread spread(std::vector<double>& stamps);
 
 }  // namespace mckibben::input

@@ -99,14 +99,14 @@ seed: 7
 """)
     run(program, folder, "dataset", "campaign.yaml")
     run(program, folder, "diagnose", "out/campaign")
-    diagnosis = json.loads((folder / "out/diagnose-campaign/diagnosis.json").read_text())
+    diagnosis = json.loads((folder / "out/campaign-diagnose/diagnosis.json").read_text())
     fitted(program, folder, wrong, fixed, key, unit, highest)
     text = (root / "scenarios/model_inverse.yaml").read_text()
     head = text[:text.index("controllers:")]
     head = re.sub("rig: .*", "rig: hidden.yaml", re.sub(r"loads: \[.*", f"loads: {LOADS}", head))
     (folder / "control.yaml").write_text(head + """controllers:
   - {kind: model_inverse, name: nominal, rig: thesis}
-  - {kind: model_inverse, name: corrected, rig: out/diagnose-campaign/rig.yaml}
+  - {kind: model_inverse, name: corrected, rig: out/campaign-diagnose/rig.yaml}
   - {kind: model_inverse, name: wrong_name, rig: wrong.yaml}
   - {kind: pid, tuning_load: 16.138 kg}
 """)

@@ -38,8 +38,8 @@ TEST(Control, ASimulatedBenchLeavesADataSetThatReplays) {
   EXPECT_EQ(document.at("ticks"), 50);
   EXPECT_GE(document.at("late_ms").at("largest").get<double>(),
             document.at("late_ms").at("median").get<double>());
-  EXPECT_EQ(mckibben("check out/b-bench/dataset.yaml", scratch).status, 0);
-  EXPECT_EQ(mckibben("replay out/b-bench", scratch).status, 0);
+  EXPECT_EQ(mckibben("check out/b-control/dataset.yaml", scratch).status, 0);
+  EXPECT_EQ(mckibben("replay out/b-control", scratch).status, 0);
 }
 
 TEST(Control, LeavesOutNoEffectOfItsRig) {
@@ -49,8 +49,8 @@ TEST(Control, LeavesOutNoEffectOfItsRig) {
   write_text(scratch / "b.yaml", text);
   const Said said = mckibben("control b.yaml --most-missed 1000", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_TRUE(holds(read_text(scratch / "out/b-bench/rig.yaml"), "bladder_elasticity"));
-  EXPECT_EQ(mckibben("replay out/b-bench", scratch).status, 0);
+  EXPECT_TRUE(holds(read_text(scratch / "out/b-control/rig.yaml"), "bladder_elasticity"));
+  EXPECT_EQ(mckibben("replay out/b-control", scratch).status, 0);
 }
 
 TEST(Control, WhatWasRecordedOutlivesAKillAsADataSet) {
@@ -60,19 +60,19 @@ TEST(Control, WhatWasRecordedOutlivesAKillAsADataSet) {
   write_text(scratch / "b.yaml", text);
   const Said killed = shell(
       "$M control b.yaml --most-missed 1000 & "
-      "until [ $(cat out/b-bench.unfinished/bench.csv 2>/dev/null | wc -l) -gt 30 ]; do sleep 0.05; done; "
+      "until [ $(cat out/b-control.unfinished/bench.csv 2>/dev/null | wc -l) -gt 30 ]; do sleep 0.05; done; "
       "kill -KILL $!",
       scratch);
-  EXPECT_EQ(mckibben("check out/b-bench.unfinished/dataset.yaml", scratch).status, 0);
-  EXPECT_EQ(mckibben("replay out/b-bench.unfinished", scratch).status, 0);
-  const std::string kept = read_text(scratch / "out/b-bench.unfinished/bench.csv");
+  EXPECT_EQ(mckibben("check out/b-control.unfinished/dataset.yaml", scratch).status, 0);
+  EXPECT_EQ(mckibben("replay out/b-control.unfinished", scratch).status, 0);
+  const std::string kept = read_text(scratch / "out/b-control.unfinished/bench.csv");
   write_text(scratch / "b.yaml", on_bench);
   const Said again = mckibben("control b.yaml --most-missed 1000", scratch);
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_TRUE(
-      holds(again.err, "b-bench.unfinished is of an earlier recording that was not finished; it stays"));
-  EXPECT_EQ(read_text(scratch / "out/b-bench.unfinished/bench.csv"), kept);
-  EXPECT_FALSE(std::filesystem::exists(scratch / "out/b-bench.unfinished-2"));
+      holds(again.err, "b-control.unfinished is of an earlier recording that was not finished; it stays"));
+  EXPECT_EQ(read_text(scratch / "out/b-control.unfinished/bench.csv"), kept);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/b-control.unfinished-2"));
 }
 
 TEST(Control, AFullDiskIs74AndKeepsWhatFoundRoom) {
@@ -83,11 +83,12 @@ TEST(Control, AFullDiskIs74AndKeepsWhatFoundRoom) {
   // A limit to the size of files, in blocks of 512 bytes: room for the rig, not for all rows.
   const Said said = shell("ulimit -f 12; $M control b.yaml --most-missed 1000", scratch);
   EXPECT_EQ(said.status, 74) << said.err;
-  EXPECT_TRUE(holds(said.err, "what was recorded until the disk was full is in ", "out/b-bench.unfinished"));
-  const std::string rows = read_text(scratch / "out/b-bench.unfinished/bench.csv");
+  EXPECT_TRUE(
+      holds(said.err, "what was recorded until the disk was full is in ", "out/b-control.unfinished"));
+  const std::string rows = read_text(scratch / "out/b-control.unfinished/bench.csv");
   EXPECT_GT(rows.size(), 4000U);
   EXPECT_EQ(rows.back(), '\n');
-  EXPECT_EQ(mckibben("replay out/b-bench.unfinished", scratch).status, 0);
+  EXPECT_EQ(mckibben("replay out/b-control.unfinished", scratch).status, 0);
 }
 
 TEST(Control, RefusesWhatCannotDriveABench) {
@@ -124,8 +125,8 @@ TEST(Control, WhatEndsBeforeTheFirstTickLeavesNoDataSet) {
   const Said said = mckibben("control b.yaml --most-missed 1000", scratch);
   EXPECT_EQ(said.status, 70);
   EXPECT_TRUE(holds(said.out, "0 of 50 ticks of 12 ms; it ended before tick 0, and nothing was recorded"));
-  EXPECT_TRUE(std::filesystem::exists(scratch / "out/b-bench/control.json"));
-  EXPECT_FALSE(std::filesystem::exists(scratch / "out/b-bench/dataset.yaml"));
+  EXPECT_TRUE(std::filesystem::exists(scratch / "out/b-control/control.json"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "out/b-control/dataset.yaml"));
 }
 
 #ifdef MCKIBBEN_AT_STAND_IN
@@ -136,7 +137,7 @@ TEST(Control, ABoardByComediLeavesADataSetThatReplays) {
   const Said said = shell(comedi + "--encoder 8:10 --most-missed 1000 --json", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(Json::parse(said.out).at("device"), "comedi");
-  EXPECT_EQ(mckibben("replay out/b-bench", scratch).status, 0);
+  EXPECT_EQ(mckibben("replay out/b-control", scratch).status, 0);
   const auto refused = [&](const char* wiring, int status, const char* why) {
     const Said refusal = shell(comedi + wiring, scratch);
     EXPECT_EQ(refusal.status, status) << wiring;

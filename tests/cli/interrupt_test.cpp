@@ -144,12 +144,12 @@ TEST_F(Interrupt, OfASearchKeepsWhatWasFound) {
   ASSERT_EQ(mckibben("dataset leak.yaml --out data", scratch).status, 0);
   const Said said = stop("diagnose data --threads 1", "looking for what would explain more, step");
   EXPECT_EQ(said.status, 130) << said.err;
-  EXPECT_TRUE(holds(said.err, "what was found by then is in out/diagnose-data.interrupted"));
-  const Json document = Json::parse(read_text(scratch / "out/diagnose-data.interrupted/diagnosis.json"));
+  EXPECT_TRUE(holds(said.err, "what was found by then is in out/data-diagnose.interrupted"));
+  const Json document = Json::parse(read_text(scratch / "out/data-diagnose.interrupted/diagnosis.json"));
   EXPECT_EQ(document.at("search").at("ended"), "by_user");
   EXPECT_TRUE(holds(document.at("because").get<std::string>(), "So far: ", "The search was ended by you"));
   EXPECT_FALSE(document.at("recalibrated").empty());  // the best so far
-  EXPECT_FALSE(exists("out/diagnose-data"));
+  EXPECT_FALSE(exists("out/data-diagnose"));
 }
 
 TEST_F(Interrupt, ASearchGoesOnFromWhereItWasEnded) {
@@ -158,14 +158,14 @@ TEST_F(Interrupt, ASearchGoesOnFromWhereItWasEnded) {
   EXPECT_TRUE(holds(mckibben("diagnose data --resume data", scratch).err, "data/search.bin: no such file"));
   ASSERT_EQ(stop("diagnose data --threads 1", "looking for what would explain more, step").status, 130);
   ASSERT_EQ(mckibben("diagnose data --out at_once", scratch).status, 0);
-  const Said said = mckibben("diagnose data --resume out/diagnose-data.interrupted --out went_on", scratch);
+  const Said said = mckibben("diagnose data --resume out/data-diagnose.interrupted --out went_on", scratch);
   EXPECT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(read_text(scratch / "went_on/diagnosis.json"), read_text(scratch / "at_once/diagnosis.json"));
   EXPECT_FALSE(exists("went_on/search.bin"));  // it was through
 
-  const fs::path kept = scratch / "out/diagnose-data.interrupted/search.bin";
+  const fs::path kept = scratch / "out/data-diagnose.interrupted/search.bin";
   const std::string bytes = read_text(kept);
-  const char* again = "diagnose data --resume out/diagnose-data.interrupted";
+  const char* again = "diagnose data --resume out/data-diagnose.interrupted";
   std::string number = bytes, shape = bytes;
   number.back() = number.back() == 'a' ? 'b' : 'a';
   shape.replace(bytes.find("\"shapes\":[[") + 11, 1, "\"");

@@ -31,7 +31,7 @@ class Map : public InAFolder {
 TEST_F(Map, CoversTargetsAndDrawsThem) {
   const Said said = run("--load '14 kg' --load 18.87kg --ratios 12 --speeds 3 --json");
   ASSERT_EQ(said.status, 0) << said.err;
-  const std::filesystem::path folder = scratch / "out" / "map-cal";
+  const std::filesystem::path folder = scratch / "out" / "cal-map";
   const auto document = input::Json::parse(said.out);
   EXPECT_EQ(said.out, read_text(folder / "map.json"));
   EXPECT_EQ(document.at("schema"), "mckibben-map/1");

@@ -75,6 +75,13 @@ class Package(unittest.TestCase):
                 packed.extractall(f"{folder}/installed")
             self.assertIn(f"Version: {mckibben.__version__}", metadata)
             self.assertIn("Requires-Dist: numpy", metadata)
+            # It carries its libraries: none but those of every Linux is taken from elsewhere.
+            core, = pathlib.Path(f"{folder}/installed/mckibben").glob("_core.*.so")
+            linked = subprocess.run(["ldd", core], capture_output=True, text=True).stdout
+            self.assertIn(f"libnetcdf.so.19 => {core.parent}/libs/", linked)
+            outside = [line.split()[0] for line in linked.splitlines() if "=> /" in line and str(core.parent) not in line]
+            self.assertRegex(" ".join(outside), r"^(lib(c|m|dl|rt|pthread|resolv|gcc_s|stdc\+\+)\.so\.\d ?)+$")
+            self.assertIn("mckibben/libs/udunits2.xml", names)
             self.assertTrue({"mckibben/py.typed", "mckibben/_core.pyi", "mckibben/env.py"} <= set(names), names)
             said = subprocess.run([sys.executable, "-c", "import mckibben; print(mckibben.Ride(load_kg=11.0).step(9.0).time_s, mckibben.__file__)"],
                                   env={**os.environ, "PYTHONPATH": f"{folder}/installed"}, capture_output=True, text=True)

@@ -8,6 +8,12 @@
 
 Numbers are SI, gauge pressures, commands in what the valve takes (the thesis's: mA); names end in their units. docs/python.md is the tutorial.
 """
+import os as _os
+import pathlib as _pathlib
+
+if (_tables := _pathlib.Path(__file__).parent / "libs/udunits2.xml").exists():  # a wheel carries them
+    _os.environ.setdefault("UDUNITS2_XML_PATH", str(_tables))
+
 from ._core import (Batch, Calibration, Dataset, Diagnosis, Linear, Reading, Result, Ride, Rig, Run, SavedRide,
                     Scenario)
 from ._core import version as __version__

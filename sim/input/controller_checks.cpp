@@ -1,0 +1,131 @@
+// See the header.
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <sim/input/calibration_file.hpp>
+#include <sim/input/common_checks.hpp>
+#include <sim/input/controller_checks.hpp>
+#include <sim/input/current_checks.hpp>
+#include <sim/input/file_names.hpp>
+#include <sim/input/quantity.hpp>
+
+namespace mckibben::input {
+namespace {
+
+class ControllerChecker {
+ public:
+  ControllerChecker(const YamlFile& file, Scenario& scenario, Problems& problems)
+      : source_(file.source), root_(file.root), scenario_(scenario), problems_(problems) {}
+
+  void operator()() {
+    UsedNames names;
+    for (std::size_t i = 0; i < scenario_.controllers.size(); ++i) {
+      const Node& node = (*root_.find("controllers")).children[i];
+      const std::string& name = controllers::name_of(scenario_.controllers[i]);
+      check_used_name(source_, name, node, "controller", names, problems_);
+      if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&scenario_.controllers[i]))
+        load_recording(*recorded, source_, *node.find("file"), scenario_.rig, problems_);
+      if (auto* guest = controllers::part_of<controllers::GuestTerms>(scenario_.controllers[i]))
+        guest->folder = source_.folder().string();
+      if (const auto* plugin = std::get_if<controllers::PluginSettings>(&scenario_.controllers[i]))
+        look_for_library(plugin->library, *node.find("library"));
+      follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
+      if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
+          terms && !terms->rig.empty())
+        load_believed_rig(name, *node.find("rig"));
+      if (auto* calibrated = controllers::part_of<controllers::CalibrationTerms>(scenario_.controllers[i]))
+        load_calibration(*calibrated, controllers::weighing_of(scenario_.controllers[i]), node);
+    }
+  }
+
+ private:
+  /// Reading a scenario runs nothing of it; what is in the library is seen when it is used.
+  void look_for_library(const std::string& library, const Node& node) {
+    constexpr std::size_t largest_library_bytes = 256U << 20U;
+    read_other(source_, node, problems_, [&] {
+      problems_.opened(Source::load((source_.folder() / library).lexically_normal(), largest_library_bytes));
+    });
+  }
+
+  void load_believed_rig(const std::string& controller, const Node& node) {
+    Rig& rig = scenario_.believed[controller];
+    read_named(source_, node, rig, problems_);
+    if (scenario_.rig.pair() != nullptr && problems_.errors() == 0 && rig.pair() == nullptr)
+      problems_.error(source_, node.place, "rig: it has one muscle, a controller of a pair needs two");
+    if (problems_.errors() == 0 && rig.command_unit() != scenario_.rig.command_unit())
+      problems_.error(source_, node.place,
+                      fmt::format("rig: its valve is commanded in {}, the scenario's in {}",
+                                  name_of(rig.command_unit()), name_of(scenario_.rig.command_unit())));
+    if (const std::string why = no_load(rig); scenario_.rig.pair() == nullptr && !why.empty())
+      problems_.error(source_, node.place, "rig: " + why);
+  }
+
+  // Several controllers may share a calibration: it is read, and complained about, once.
+  const std::optional<controllers::Calibration>& calibration(const std::string& file, const Node& node) {
+    const auto path = (source_.folder() / file).lexically_normal();
+    const auto [entry, is_new] = calibrations_.try_emplace(path.string());
+    if (!is_new) return entry->second;
+    read_other(source_, node, problems_,
+               [&, &read = entry->second] { read = read_calibration(path, scenario_.inputs); });
+    return entry->second;
+  }
+
+  void load_calibration(controllers::CalibrationTerms& settings,
+                        const controllers::WeighingSettings* contractions, const Node& node) {
+    const auto& model = calibration(settings.calibration, *node.find("calibration"));
+    if (!model) return;
+    if (const std::string why =
+            wrong_rig(*model, scenario_.rig, contractions != nullptr && !settings.assumed_load_kg);
+        !why.empty())
+      return problems_.error(source_, node.find("calibration")->place,
+                             fmt::format("calibration = {}: {}", settings.calibration, why));
+    settings.model = *model;
+    const controllers::CalibratedRange& range = settings.model.range;
+    const auto check = [&](const Node* given, std::string_view key, double value, double lowest,
+                           double highest, std::string_view unit) {
+      if (settings.extrapolate_load || (value >= lowest && value <= highest)) return;
+      problems_.error(source_, given != nullptr ? given->place : node.place,
+                      fmt::format("{} = {:g} {} is outside what {} was made with, {:g} to {:g} {}; calibrate "
+                                  "on both sides of it, or allow it with extrapolate_load: true",
+                                  key, value, unit, settings.calibration, lowest, highest, unit));
+    };
+    if (settings.assumed_load_kg) {
+      check(node.find("assumed_load"), "assumed_load", *settings.assumed_load_kg, range.lowest_load_kg,
+            range.highest_load_kg, "kg");
+    } else if (contractions != nullptr) {
+      const Node* weighing = node.find("weighing");
+      check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed",
+            *contractions->speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
+            in_unit(scenario_.rig.command_unit(), "mA/s"));
+    }
+  }
+
+  const Source& source_;
+  const Node& root_;
+  Scenario& scenario_;
+  Problems& problems_;
+  std::map<std::string, std::optional<controllers::Calibration>> calibrations_;
+};
+
+}  // namespace
+
+void check_used_name(const Source& source, const std::string& name, const Node& node, std::string_view what,
+                     UsedNames& names, Problems& problems) {
+  const Node* given = node.find("name");
+  const Place place = given != nullptr ? given->place : node.place;
+  const auto [earlier, is_new] = names.try_emplace(name, node.place.line);
+  if (!is_file_safe(name))
+    problems.error(source, place, fmt::format("name = {}: {}", name, file_safe_rule));
+  else if (!is_new)
+    problems.error(source, place,
+                   fmt::format("the name {} is already that of the {} in line {}; give each a name", name,
+                               what, earlier->second));
+}
+
+void check_controllers(const YamlFile& file, Scenario& scenario, Problems& problems) {
+  ControllerChecker(file, scenario, problems)();
+}
+
+}  // namespace mckibben::input
