@@ -12,6 +12,7 @@
 
 #include <sim/formats/sheet.hpp>
 #include <sim/formats/table.hpp>
+#include <sim/formats/tdms_scales.hpp>
 
 namespace mckibben::formats {
 namespace {
@@ -25,6 +26,17 @@ constexpr std::uint32_t type_text = 0x20, type_bool = 0x21, type_stamp = 0x44;
 [[noreturn]] void cut_off() {
   throw BadFile("its sizes and contents do not agree: the file is damaged or cut off");
 }
+
+/// Whole seconds since 1904 and a part of one in 2^-64 s: a difference keeps its digits. 0: it is not set.
+struct Stamp {
+  std::int64_t second = 0;
+  std::uint64_t part = 0;
+  auto operator<=>(const Stamp&) const = default;
+  double since(const Stamp& other) const {
+    return static_cast<double>(second) - static_cast<double>(other.second) +
+           0x1p-64 * (static_cast<double>(part) - static_cast<double>(other.part));
+  }
+};
 
 /// Bytes from front to back.
 class Bytes {
@@ -46,6 +58,12 @@ class Bytes {
   }
   std::string text() { return std::string(take(number<std::uint32_t>())); }
   std::size_t size() const { return rest_.size(); }
+
+  Stamp stamp() {
+    const auto before = big_endian_ ? 0 : number<std::uint64_t>();
+    const auto second = number<std::int64_t>();
+    return {second, big_endian_ ? number<std::uint64_t>() : before};
+  }
 
   /// A value of that type as a number; of a time in seconds since 1970.
   double value(std::uint32_t type) {
@@ -74,11 +92,8 @@ class Bytes {
       case 0x1A:
         return number<double>();
       case type_stamp: {
-        constexpr double from_1904_to_1970_s = 2082844800.0, part = 0x1p-64;
-        const auto fraction = big_endian_ ? 0 : number<std::uint64_t>();
-        const auto second = static_cast<double>(number<std::int64_t>());
-        const auto last = big_endian_ ? number<std::uint64_t>() : fraction;
-        return second - from_1904_to_1970_s + static_cast<double>(last) * part;
+        constexpr std::int64_t from_1904_to_1970_s = 2082844800;
+        return stamp().since({from_1904_to_1970_s});
       }
       default:
         throw BadFile(fmt::format("it has values of type {:#x}, which is not read; export it as text", type));
@@ -98,12 +113,15 @@ std::size_t bytes_of(std::uint32_t type) {
 }
 
 struct Channel {
-  std::string group, name, unit;
+  std::string group, name;
   std::vector<double> values{};
-  double increment = 0.0, offset = 0.0;
+  Properties properties{};
+  Stamp start{};          ///< of its waveform
+  double offset_s = 0.0;  ///< of its first value, since the earliest start in its group
   std::uint32_t type = 0;
   std::uint64_t count = 0, bytes = 0;  ///< in a chunk of the segment that is read
   bool is_text() const { return type == type_text; }
+  double increment_s() const { return properties.number("wf_increment"); }
 };
 
 /// "/'Group'/'Channel'" in its parts, with '' for '.
@@ -146,6 +164,10 @@ class Tdms {
         values({bytes.substr(raw, next - raw), (contents & big) != 0}, (contents & interleaved) != 0);
       bytes.remove_prefix(next);
     }
+    for (Channel& channel : channels_) {
+      scale(channel);
+      offset(channel);
+    }
   }
   const std::vector<Channel>& channels() const { return channels_; }
   bool is_cut_off() const { return cut_off_; }
@@ -162,7 +184,7 @@ class Tdms {
       std::size_t index = channels_.size();
       if (parts.size() == 2) {
         index = known_.try_emplace(path, channels_.size()).first->second;
-        if (index == channels_.size()) channels_.push_back({parts[0], parts[1], ""});
+        if (index == channels_.size()) channels_.push_back({parts[0], parts[1]});
         channel = &channels_[index];
       }
       const auto length = bytes.number<std::uint32_t>();
@@ -177,21 +199,37 @@ class Tdms {
       if (length != 0xFFFFFFFF && parts.size() == 2 && std::ranges::find(active_, index) == active_.end())
         active_.push_back(index);
       auto properties = bytes.number<std::uint32_t>();
-      for (; properties > 0; --properties) property(bytes, *channel);
+      Properties& said = parts.size() == 2 ? channel->properties : above_[parts.empty() ? "" : parts[0]];
+      for (; properties > 0; --properties) property(bytes, said, channel->start);
     }
   }
 
-  static void property(Bytes& bytes, Channel& channel) {
+  static void property(Bytes& bytes, Properties& said, Stamp& start) {
     const std::string name = bytes.text();
     const auto type = bytes.number<std::uint32_t>();
-    if (type == type_text) {
-      const std::string text = bytes.text();
-      if (name == "unit_string") channel.unit = text;
-      return;
-    }
-    const double value = bytes.value(type);
-    if (name == "wf_increment") channel.increment = value;
-    if (name == "wf_start_offset") channel.offset = value;
+    if (type == type_text)
+      said.texts[name] = bytes.text();
+    else if (name == "wf_start_time" && type == type_stamp)
+      start = bytes.stamp();
+    else
+      said.numbers[name] = bytes.value(type);
+  }
+
+  /// A scale stands at the channel, its group or the file.
+  void scale(Channel& channel) {
+    for (const Properties* said : {&channel.properties, &above_[channel.group], &above_[""]})
+      if (said->numbers.contains("NI_Number_Of_Scales"))
+        return apply_scales(*said, channel.name, channel.values);
+  }
+
+  void offset(Channel& channel) const {
+    channel.offset_s = channel.properties.number("wf_start_offset");
+    Stamp first = channel.start;
+    if (first == Stamp{}) return;
+    for (const Channel& other : channels_)
+      if (other.group == channel.group && other.increment_s() > 0.0 && other.start != Stamp{})
+        first = std::min(first, other.start);
+    channel.offset_s += channel.start.since(first);
   }
 
   void values(Bytes bytes, bool side_by_side) {
@@ -228,7 +266,8 @@ class Tdms {
 
   bool cut_off_ = false;
   std::vector<Channel> channels_;
-  std::vector<std::size_t> active_;  ///< whose values the next segment holds
+  std::map<std::string, Properties> above_;  ///< of groups, and of the file under ""
+  std::vector<std::size_t> active_;          ///< whose values the next segment holds
   std::map<std::string, std::size_t> known_;
 };
 
@@ -280,15 +319,16 @@ std::vector<Sheet> sheets_of_tdms(std::string_view bytes) {
     const Channel* clock = nullptr;  // of the last column of times that was written
     for (const Channel& channel : file.channels()) {
       if (channel.group != group || channel.values.empty()) continue;
-      const bool same = clock != nullptr && clock->increment == channel.increment &&
-                        clock->offset == channel.offset && clock->values.size() == channel.values.size();
-      if (channel.increment > 0.0 && !same) {
+      const bool same = clock != nullptr && clock->increment_s() == channel.increment_s() &&
+                        clock->offset_s == channel.offset_s && clock->values.size() == channel.values.size();
+      if (channel.increment_s() > 0.0 && !same) {
         const std::string name = clock == nullptr ? "time" : "time of " + channel.name;
-        columns.push_back({name, "s", channel.values.size(), {}, channel.offset, channel.increment});
+        columns.push_back({name, "s", channel.values.size(), {}, channel.offset_s, channel.increment_s()});
         clock = &channel;
       }
-      columns.push_back({channel.name, channel.type == type_stamp ? "s" : channel.unit, channel.values.size(),
-                         channel.values, 0.0, 0.0});
+      columns.push_back({channel.name,
+                         channel.type == type_stamp ? "s" : channel.properties.text("unit_string"),
+                         channel.values.size(), channel.values, 0.0, 0.0});
     }
     if (columns.empty()) continue;
     sheets.push_back(sheet_of(group, columns));

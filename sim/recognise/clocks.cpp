@@ -206,10 +206,11 @@ TimeGuess time_of(const UnknownTable& table) {
   for (std::size_t i = 1; i < candidates.size(); ++i)
     paired = paired && candidates[i].first - candidates[i - 1].first > 1;
   paired = paired && candidates.back().first != &table.columns.back();
-  const bool late = std::ranges::any_of(candidates, [&](const auto& one) {
-    return one.first != first && are_late(first->values, one.first->values);
-  });
-  if (same && !(paired && late)) {
+  const bool late = paired && std::ranges::any_of(candidates, [&](const auto& one) {
+                      const bool named = one.first->heading() == "time of " + one.first[1].heading();
+                      return one.first != first && (named || are_late(first->values, one.first->values));
+                    });
+  if (same && !late) {
     found.guess->column.reason += "; the other columns of time say the same";
     return found;
   }

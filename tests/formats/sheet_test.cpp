@@ -152,6 +152,75 @@ TEST(Tdms, ChannelsSegmentsUnitsAndRates) {
       << "rates differ";
 }
 
+/// A channel's property as a double, a text or a stamp of seconds since 1904.
+std::string property(const std::string& name, double value) {
+  return text(name) + raw(std::uint32_t{10}) + raw(value);
+}
+std::string property(const std::string& name, const std::string& value) {
+  return text(name) + raw(std::uint32_t{0x20}) + text(value);
+}
+std::string start(std::int64_t second, std::uint64_t part) {
+  return text("wf_start_time") + raw(std::uint32_t{0x44}) + raw(part) + raw(second);
+}
+
+/// Channels a, b, ... of two doubles, 1 and 2, each with its properties.
+std::string tdms_with(const std::vector<std::vector<std::string>>& properties) {
+  std::string objects = raw(static_cast<std::uint32_t>(properties.size())), values;
+  for (std::size_t k = 0; k < properties.size(); ++k) {
+    objects += text(fmt::format("/'g'/'{}'", static_cast<char>('a' + k))) + raw(std::uint32_t{20}) +
+               raw(std::uint32_t{10}) + raw(std::uint32_t{1}) + raw(std::uint64_t{2}) +
+               raw(static_cast<std::uint32_t>(properties[k].size()));
+    for (const std::string& each : properties[k]) objects += each;
+    values += raw(1.0) + raw(2.0);
+  }
+  return "TDSm" + raw(std::uint32_t{2 | 4 | 8}) + raw(std::uint32_t{4713}) +
+         raw(std::uint64_t{objects.size() + values.size()}) + raw(std::uint64_t{objects.size()}) + objects +
+         values;
+}
+
+TEST(Tdms, ChannelsThatStartLaterHaveAClockOfTheirOwn) {
+  const std::string step = property("wf_increment", 0.5);
+  constexpr std::int64_t day = 3797590921;
+  constexpr std::uint64_t quarter = 1ULL << 62U;
+  EXPECT_EQ(
+      sheets_of_tdms(tdms_with({{step, start(day + 1, quarter)}, {step, start(day, 2 * quarter)}}))[0].text,
+      "time\ta\ttime of b\tb\ns\t-\ts\t-\n0.75\t1\t0\t1\n1.25\t2\t0.5\t2\n");
+  for (const std::int64_t same : {day, std::int64_t{0}})  // 0: it was never set
+    EXPECT_EQ(sheets_of_tdms(tdms_with({{step, start(day, 0)}, {step, start(same, 0)}}))[0].text,
+              "time\ta\tb\ns\t-\t-\n0\t1\t1\n0.5\t2\t2\n");
+}
+
+TEST(Tdms, CountsAreScaled) {
+  const auto of = [](std::vector<std::string> said) {
+    return sheets_of_tdms(tdms_with({std::move(said)}))[0].text.substr(4);
+  };
+  const std::string two = property("NI_Number_Of_Scales", 2.0);
+  const std::vector<std::string> line{two, property("NI_Scale[1]_Scale_Type", std::string("Linear")),
+                                      property("NI_Scale[1]_Linear_Slope", 0.5),
+                                      property("NI_Scale[1]_Linear_Y_Intercept", 3.0)};
+  EXPECT_EQ(of(line), "3.5\n4\n");
+  auto more = line;
+  more.push_back(property("NI_Scaling_Status", std::string("scaled")));
+  EXPECT_EQ(of(more), "1\n2\n") << "it has been";
+  more = line;
+  for (const std::string& each : {property("NI_Scale[0]_Scale_Type", std::string("Polynomial")),
+                                  property("NI_Scale[0]_Polynomial_Coefficients_Size", 3.0),
+                                  property("NI_Scale[0]_Polynomial_Coefficients[1]", 1.0),
+                                  property("NI_Scale[0]_Polynomial_Coefficients[2]", 1.0),
+                                  property("NI_Scale[1]_Linear_Input_Source", 0.0)})
+    more.push_back(each);
+  EXPECT_EQ(of(more), "4\n6\n") << "x + x^2, and that in the line";
+  try {
+    of({two, property("NI_Scale[1]_Scale_Type", std::string("Thermocouple"))});
+    ADD_FAILURE();
+  } catch (const BadFile& bad) {
+    EXPECT_STREQ(
+        bad.what(),
+        "its channel a holds counts with a scale of the kind Thermocouple, which is not read; save it "
+        "scaled, or export it as text");
+  }
+}
+
 /// Channels of bytes, so many in each.
 std::string tdms_of(const std::vector<std::size_t>& lengths) {
   std::string objects = raw(static_cast<std::uint32_t>(lengths.size()));
