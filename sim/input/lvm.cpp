@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/domain/number.hpp>
 #include <sim/input/cells.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/number.hpp>
@@ -20,7 +21,8 @@
 namespace mckibben::input {
 namespace {
 
-constexpr std::string_view file_mark = "LabVIEW Measurement", segment_mark = "Channels", time_name = "time_s";
+constexpr std::string_view file_mark = "LabVIEW Measurement", segment_mark = "Channels", x_name = "X_Value",
+                           comment_name = "Comment";
 
 enum class XColumns { one, none, multi };
 
@@ -54,6 +56,13 @@ class LvmReader {
     std::vector<Cell> cells;
   };
   using Header = std::map<std::string, Entry, std::less<>>;
+  /// Of a channel: in a column, or evenly.
+  struct Times {
+    bool wanted = false;  ///< in the place of its values
+    std::size_t channel = 0;
+    std::optional<std::size_t> column{};
+    double begin_s = 0.0, step_s = 0.0;
+  };
 
   std::vector<Cell> cells() const { return split_cells(source_.line(line_), separator_); }
   bool at_end() const { return line_ > source_.lines(); }
@@ -133,7 +142,7 @@ class LvmReader {
     if (is_wanted) find_columns(found);
     if (problems_.count() > 0) return;
     const std::size_t first_row = table_.lines.size();
-    for (++line_; skip_blank() && !begins_a_header(); ++line_)
+    for (++line_; !apart_ && skip_blank() && !begins_a_header(); ++line_)
       if (is_wanted) read_row(table_.lines.size() - first_row);
     if (is_wanted && first_row > 0 && table_.lines.size() > first_row) check_goes_on(first_row);
   }
@@ -160,20 +169,43 @@ class LvmReader {
     return std::nullopt;
   }
 
+  /// Index of the channel whose times are wanted: of the first, or of that which is named; none: a channel
+  /// itself is wanted.
+  std::optional<std::size_t> channel_of_times(const WantedColumn& wanted) {
+    const auto is = [&](std::string_view name) {
+      return [name](const Cell& label) { return label.text == name; };
+    };
+    if (!wanted.in_file.empty() && std::ranges::any_of(labels_, is(wanted.in_file))) return std::nullopt;
+    const auto index = [&](auto found) { return static_cast<std::size_t>(found - labels_.begin()); };
+    if (wanted.in_file.empty() || wanted.in_file == lvm_time)
+      return index(std::ranges::find_if(
+          labels_, [](const Cell& label) { return !label.text.empty() && label.text != x_name; }));
+    if (!wanted.in_file.starts_with(lvm_time_of)) return std::nullopt;
+    const auto found = std::ranges::find_if(labels_, is(wanted.in_file.substr(lvm_time_of.size())));
+    return found == labels_.end() ? std::nullopt : std::optional(index(found));
+  }
+
   void find_columns(const Header& found) {
     labels_ = cells();
     if (!check_columns(labels_.size(), {line_, 1}, problems_)) return;
     std::vector<Table::Column> columns;
-    bool has_own_time = true;
+    times_.clear();
     for (const WantedColumn& wanted : wanted_) {
-      if (wanted.in_file.empty())
-        has_own_time = false;
-      else if (const auto index = find_label(wanted))
-        columns.push_back({wanted.name, wanted.in_file, *index, {}, wanted.may_miss});
+      const auto of_times = channel_of_times(wanted);
+      const auto index = of_times ? of_times : find_label(wanted);
+      if (!index || *index == labels_.size()) continue;
+      columns.push_back({wanted.name, wanted.in_file, *index, {}, wanted.may_miss});
+      columns.back().own_clock = wanted.own_clock;
+      times_.push_back({of_times.has_value(), *index});
     }
+    if (std::ranges::any_of(times_, &Times::wanted))
+      for (std::size_t i = 0; i < columns.size() && problems_.count() == 0; ++i) {
+        find_times(found, columns[i].index, times_[i]);
+        if (!times_[i].wanted) continue;
+        columns[i].index = times_[i].column.value_or(columns[i].index);
+        columns[i].in_file = times_[i].column ? labels_[columns[i].index].text : "X0 + k Delta_X";
+      }
     if (problems_.count() > 0) return;
-    steps_.clear();
-    if (!has_own_time) add_times(found, columns);
     const auto same = [](const Table::Column& a, const Table::Column& b) {
       return a.name == b.name && a.index == b.index;
     };
@@ -186,22 +218,17 @@ class LvmReader {
                                 segments_, segments_));
   }
 
-  /// The time of each channel; of all of them, where they share it.
-  void add_times(const Header& found, std::vector<Table::Column>& columns) {
-    const std::size_t channels = columns.size();
-    for (std::size_t i = 0; i < channels; ++i) {
-      const std::size_t index = columns[i].index;
-      const bool has_x = !labels_.front().text.empty() && labels_.front().text == "X_Value";
-      const std::size_t channel =
-          x_columns_ == XColumns::multi ? index / 2 : index - (has_x && index > 0 ? 1 : 0);
-      check_is_time(found, channel);
-      if (x_columns_ == XColumns::none) {
-        columns.push_back({std::string(time_name), "X0 + k Delta_X", index, {}});
-        steps_.push_back({entry_number(found, "X0", channel), entry_number(found, "Delta_X", channel)});
-      } else if (x_columns_ == XColumns::multi || i == 0) {
-        const std::size_t x = x_columns_ == XColumns::one || index == 0 ? 0 : index - 1;
-        columns.push_back({std::string(time_name), std::string(labels_[x].text), x, {}});
-      }
+  /// Where the times of a channel stand, or from what they are counted.
+  void find_times(const Header& found, std::size_t index, Times& times) {
+    const bool has_x = labels_.front().text == x_name;
+    const std::size_t channel =
+        x_columns_ == XColumns::multi ? index / 2 : index - (has_x && index > 0 ? 1 : 0);
+    check_is_time(found, channel);
+    if (x_columns_ == XColumns::none) {
+      times.begin_s = entry_number(found, "X0", channel);
+      times.step_s = entry_number(found, "Delta_X", channel);
+    } else {
+      times.column = x_columns_ == XColumns::one || index == 0 ? 0 : index - 1;
     }
   }
 
@@ -240,31 +267,63 @@ class LvmReader {
                                             : fmt::format("this row has {} cells; there are {} columns",
                                                           row.size(), labels_.size()));
     table_.lines.push_back(line_);
-    auto step = steps_.begin();
-    for (Table::Column& column : table_.columns) {
-      const bool is_counted = column.name == time_name && !steps_.empty();
-      if (column.may_miss && column.index < row.size() && is_missing(row[column.index])) {
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      Table::Column& column = table_.columns[i];
+      if (times_[i].wanted)
+        column.values.push_back(time(times_[i], row, row_of_segment));
+      else if (column.may_miss && column.index < row.size() && is_missing(row[column.index]))
         column.values.push_back(std::nan(""));
-        continue;
-      }
-      column.values.push_back(is_counted ? step->begin + static_cast<double>(row_of_segment) * step->delta
-                                         : number(column.in_file, line_, row, column.index));
-      if (is_counted) ++step;
+      else
+        column.values.push_back(number(column.in_file, line_, row, column.index));
+    }
+    check_clocks(row, row_of_segment);
+  }
+
+  /// Of a channel in a row, since the first that is read; NaN where the row has none.
+  double time(const Times& times, const std::vector<Cell>& row, std::size_t row_of_segment) {
+    double at_s = times.begin_s + static_cast<double>(row_of_segment) * times.step_s;
+    if (times.column) {
+      const Cell cell = *times.column < row.size() ? row[*times.column] : Cell{};
+      at_s = is_missing(cell) ? std::nan("") : number(x_name, line_, row, *times.column);
+    }
+    if (!begin_s_ && !std::isnan(at_s)) {
+      begin_s_ = at_s;
+      if (at_s != 0.0)
+        problems_.note({line_, 1}, fmt::format("X begins at {} s; times are those since this row",
+                                               domain::write_number(at_s)));
+    }
+    return at_s - begin_s_.value_or(0.0);
+  }
+
+  /// Channels that are read at one time were measured then.
+  void check_clocks(const std::vector<Cell>& row, std::size_t row_of_segment) {
+    const Table::Column* common = table_.find("time_s");
+    if (common == nullptr) return;
+    const Times& of_all = times_[static_cast<std::size_t>(common - table_.columns.data())];
+    for (std::size_t i = 0; i < times_.size() && of_all.wanted && !apart_; ++i) {
+      const Table::Column& column = table_.columns[i];
+      if (times_[i].wanted || column.own_clock) continue;
+      const double own_s = time(times_[i], row, row_of_segment), common_s = common->values.back();
+      if (std::isnan(column.values.back()) || std::abs(own_s - common_s) <= lvm_same_s) continue;
+      apart_ = true;
+      problems_.add(
+          {line_, 1},
+          fmt::format("{0} has another clock than {1}: {2} s in this row, where that has {3} s; write "
+                      "columns: {{time: {{column: {4}, unit: s}}}}, and time: \"{5}{0}\" in the place "
+                      "of {0}",
+                      column.in_file, labels_[of_all.channel].text, domain::write_number(own_s),
+                      domain::write_number(common_s), lvm_time, lvm_time_of));
     }
   }
 
   void check_goes_on(std::size_t first_row) {
-    const Table::Column* time = table_.find(time_name);
+    const Table::Column* time = table_.find("time_s");
     if (time != nullptr && time->values[first_row] <= time->values[first_row - 1])
       problems_.add(
           table_, *time, first_row,
           fmt::format("time begins again here, in segment {}; name the one that is wanted: segment: {}",
                       segments_, segments_));
   }
-
-  struct Step {
-    double begin, delta;
-  };
 
   const Source& source_;
   std::span<const WantedColumn> wanted_;
@@ -276,7 +335,9 @@ class LvmReader {
   XColumns x_columns_ = XColumns::one;
   NumberReader numbers_;
   std::vector<Cell> labels_;
-  std::vector<Step> steps_;  ///< of the time columns, where the file has none
+  std::vector<Times> times_;  ///< of each column
+  std::optional<double> begin_s_;
+  bool apart_ = false;  ///< two columns have not one clock
   Table table_;
 };
 
@@ -295,7 +356,7 @@ std::vector<std::string> lvm_channels(const Source& source) {
   reader.read();
   std::vector<std::string> names;
   for (const Cell& label : reader.labels())
-    if (!label.text.empty() && label.text != "X_Value" && label.text != "Comment")
+    if (!label.text.empty() && label.text != x_name && label.text != comment_name)
       names.emplace_back(label.text);
   return names;
 }

@@ -35,9 +35,14 @@ Table read_table(const Source& source, std::span<const std::string_view> require
 // then segments, each with a header of its own, a row of channel names, and rows with a tab (or a comma)
 // between the cells and perhaps a remark at the end.
 
+/// Times of the first channel, and of that whose name follows: their X column, or X0 and Delta_X where there
+/// is none, since the first row. Times that are as near as that are the same.
+inline constexpr std::string_view lvm_time = "time_s", lvm_time_of = "time of ";
+inline constexpr double lvm_same_s = 1e-6;
+
 /// Reads the wanted channels. `in_file` is a channel's name, or its column's number from 1; left empty, it is
-/// the time of the other channels: their X column, or X0 and Delta_X where there is none. `segment`: which
-/// one, from 1; 0 for all of them, one after the other.
+/// `lvm_time`. Channels without `own_clock` must have that time. `segment`: which one, from 1; 0 for all of
+/// them, one after the other.
 Table read_lvm(const Source& source, std::span<const WantedColumn> wanted, std::size_t segment,
                TableProblems& problems);
 

@@ -236,7 +236,8 @@ void read_text(const Source& source, UnknownTable& table) {
 
 std::vector<input::WantedColumn> wanted_of_labview(const Source& source) {
   std::vector<input::WantedColumn> wanted;
-  for (auto& name : input::lvm_channels(source)) wanted.push_back({name, name, false, true});
+  for (auto& name : input::lvm_channels(source))
+    wanted.push_back({name, name, false, true, input::CellKind::number, true});
   return wanted;
 }
 
@@ -253,17 +254,37 @@ std::size_t runs_of_labview(const Source& source) {
   }
 }
 
+/// Clocks of the channels, where they have not one: each stands before its channel.
 void read_labview(const Source& source, std::size_t segment, UnknownTable& table) {
-  table.time_is_inside = true;
+  const std::vector<input::WantedColumn> channels = wanted_of_labview(source);
+  std::vector<input::WantedColumn> wanted;
+  for (const input::WantedColumn& channel : channels) {
+    const std::string clock =
+        wanted.empty() ? std::string(input::lvm_time) : std::string(input::lvm_time_of) + channel.name;
+    wanted.push_back({clock, clock, false, true});
+    wanted.push_back(channel);
+  }
   input::Problems problems;
   input::Table found;
   {
     input::TableProblems said(source, problems);
-    found = input::read_lvm(source, wanted_of_labview(source), segment, said);
+    found = input::read_lvm(source, wanted, segment, said);
   }
   problems.raise();
-  for (input::Table::Column& column : found.columns)
-    table.columns.push_back({column.name, "", false, "", std::move(column.values)});
+  const std::vector<double>* last = nullptr;
+  const auto same = [&](const std::vector<double>& clock) {
+    return last != nullptr && std::ranges::equal(clock, *last, [](double a, double b) {
+             return !(std::abs(a - b) > input::lvm_same_s);  // or one has none here
+           });
+  };
+  for (std::size_t i = 0; i < found.columns.size(); ++i) {
+    const bool clock = i % 2 == 0;
+    if (clock && same(found.columns[i].values)) continue;
+    if (clock) last = &found.columns[i].values;
+    table.columns.push_back({found.columns[i].name, clock ? "s" : "", false, "", found.columns[i].values});
+  }
+  table.time_is_inside = found.columns.empty() || table.columns.size() == 1 + found.columns.size() / 2;
+  if (table.time_is_inside && !table.columns.empty()) table.columns.erase(table.columns.begin());
 }
 
 /// Vectors of the greatest length; shorter ones are settings.
@@ -292,6 +313,16 @@ void read_matlab(const Source& source, UnknownTable& table) {
   }
 }
 
+std::string no_numbers_in(const Source& source) {
+  const std::string_view begin = input::trimmed(std::string_view(source.text()).substr(0, 1000));
+  const bool json = begin.starts_with('{') || begin.starts_with('[');
+  return std::string("no column of numbers is found in it") +
+         (json ? "; this looks like JSON, of which records are read, [{\"t\": 0, \"p\": 1.2}, ...]: write it "
+                 "as "
+                 "such, or as CSV"
+               : "");
+}
+
 /// `segment`: of an .lvm; 0: all.
 UnknownTable read_one(const std::filesystem::path& path, const Source& source, std::size_t segment) {
   UnknownTable table;
@@ -311,7 +342,7 @@ UnknownTable read_one(const std::filesystem::path& path, const Source& source, s
   if (format == input::Format::text) read_text(source, table);
   if (format == input::Format::lvm) read_labview(source, segment, table);
   if (format == input::Format::mat) read_matlab(source, table);
-  if (table.columns.empty()) refuse(source, input::nowhere, "no column of numbers is found in it");
+  if (table.columns.empty()) refuse(source, input::nowhere, no_numbers_in(source));
   return table;
 }
 
