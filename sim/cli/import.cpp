@@ -45,11 +45,11 @@ std::vector<fs::path> tables_of(const std::vector<std::string>& files) {
       std::string ending = entry.path().extension().string();
       std::ranges::transform(ending, ending.begin(),
                              [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-      const std::string name = entry.path().stem().string();
+      const std::string name = entry.path().stem().string();  // ~$: a lock of a spreadsheet that is open
       const bool no_ending = ending.size() > 1 && std::isdigit(static_cast<unsigned char>(ending[1])) != 0;
       if (entry.is_directory()) folders.insert(entry.path().filename().string());
-      if (!entry.is_regular_file() || name.starts_with('.') || name.starts_with("README") ||
-          name.starts_with("LICENSE"))
+      if (!entry.is_regular_file() || name.starts_with('.') || name.starts_with("~$") ||
+          name.starts_with("README") || name.starts_with("LICENSE"))
         continue;
       if (no_ending || std::ranges::find(endings, ending) != endings.end())
         inside.push_back(entry.path());

@@ -32,27 +32,64 @@ bool holds_number(std::string_view line) {
   return std::ranges::any_of(line, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// `p:1.2, x = 3`; none if anything else stands in the line.
+/// Where a value ends: at `from` is its first letter. A text in quotes ends with them; a unit belongs to the
+/// number before it, unless it is the next label: `p:1.2 bar x:3`.
+std::size_t end_of_value(std::string_view line, std::size_t from, char quote, std::string_view between) {
+  if (quote != '\0') return std::min(line.find(quote, from), line.size());
+  const std::size_t end = std::min(line.find_first_of(between, from), line.size());
+  const std::size_t unit = line.find_first_not_of(' ', end);
+  if (unit == std::string_view::npos || unit == end) return end;
+  const std::size_t behind = std::min(line.find_first_of(between, unit), line.size());
+  const std::size_t next = std::min(line.find_first_not_of(' ', behind), line.size());
+  const bool is_label = next < line.size() && (line[next] == ':' || line[next] == '=');
+  return is_label || unit_word(line.substr(unit, behind - unit)).empty() ? end : behind;
+}
+
+/// `p:1.2, x = 3`, and in braces `'state': 'on'`; none if anything else stands in the line.
 Pairs pairs_in(std::string_view line) {
-  constexpr std::string_view between = " \t,;\"{}[]|";
+  constexpr std::string_view between = " \t,;\"'{}[]|", ends = " \t,;\"{}[]|";
+  const bool braces = trimmed(line).starts_with('{');
   Pairs pairs;
   for (std::size_t at = line.find_first_not_of(between); at != std::string_view::npos;) {
     std::size_t end = at;
     while (end < line.size() && is_label_sign(line[end])) ++end;
     const std::string_view label = line.substr(at, end - at);
     if (label.empty() || std::isdigit(static_cast<unsigned char>(label.front())) != 0) return {};
-    const std::size_t sign = line.find_first_not_of("\" \t", end);
+    const std::size_t sign = line.find_first_not_of("\"' \t", end);
     if (sign == std::string_view::npos || (line[sign] != ':' && line[sign] != '=')) return {};
-    const std::size_t from = line.find_first_not_of(" \t\"", sign + 1);
+    std::size_t from = line.find_first_not_of(" \t", sign + 1);
     if (from == std::string_view::npos) return {};
-    const std::size_t to = std::min(line.find_first_of(between, from), line.size());
+    const bool quoted = line[from] == '"' || line[from] == '\'';
+    const char quote = quoted ? line[from++] : '\0';
+    const std::size_t to = end_of_value(line, from, quote, ends);
     const std::string_view value = line.substr(from, to - from);
-    if (!is_number_like(value) && !is_missing({value, 0})) return {};
+    const bool text = braces && quoted && value.find('\t') == std::string_view::npos;
+    if (!text && !is_number_like(value) && !is_missing({value, 0})) return {};
     pairs.emplace_back(label, value);
     if (pairs.size() > most_labels) return {};
     at = line.find_first_not_of(between, to);
   }
   return pairs.size() > 1 ? pairs : Pairs{};
+}
+
+/// Records, wherever their lines end: a line for each, and the line where it begins. Empty: there are none.
+std::vector<std::pair<std::string, std::size_t>> records_in(const Source& source) {
+  const std::string_view text = source.text();
+  constexpr std::string_view blank = " \t\r\n";
+  std::vector<std::pair<std::string, std::size_t>> records;
+  const std::size_t list = std::min(text.find_first_not_of(blank), text.size());
+  const std::size_t first = text.find_first_not_of(blank, list + 1);
+  if (first == std::string_view::npos || text[list] != '[' || text[first] != '{') return records;
+  std::size_t line = 1, open = std::string_view::npos, began = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    line += text[at] == '\n' ? 1 : 0;
+    if (text[at] == '{') open = at, began = line;
+    if (text[at] != '}' || open == std::string_view::npos) continue;
+    records.emplace_back(text.substr(open, at + 1 - open), began);
+    std::ranges::replace(records.back().first, '\n', ' ');
+    open = std::string_view::npos;
+  }
+  return records;
 }
 
 /// Whether most lines that hold numbers are such.
@@ -185,7 +222,9 @@ std::optional<Source> as_columns(const Source& source) {
       begin.find("sec") != std::string_view::npos || begin.find_first_of(":=") != std::string_view::npos;
   if (!may) return std::nullopt;
   Lines lines;
-  for (std::size_t number = 1; number <= source.lines(); ++number) {
+  const auto records = records_in(source);
+  for (const auto& [record, line] : records) lines.push_back(record);
+  for (std::size_t number = 1; records.empty() && number <= source.lines(); ++number) {
     lines.emplace_back(source.line(number));
     if (number == looked_at) {  // most files are no such log
       Lines first = lines;
@@ -202,8 +241,8 @@ std::optional<Source> as_columns(const Source& source) {
   std::string columns;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     columns += lines[k] + '\n';
-    numbers.numbers.push_back(
-        source.line_in_file(k + 1 - (heading != std::string::npos && k > heading ? 1 : 0)));
+    const std::size_t line = k - (heading != std::string::npos && k > heading ? 1 : 0);
+    numbers.numbers.push_back(records.empty() ? source.line_in_file(line + 1) : records[line].second);
   }
   return Source(source.name(), std::move(columns), source.folder(), source.sha256(), std::move(numbers));
 }

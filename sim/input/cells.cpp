@@ -27,6 +27,7 @@ bool is_sign(char c) {
 /// One decimal sign, groups of three digits, or a date such as 03.05.2024; "1,2,3" are three numbers.
 bool signs_fit(std::string_view digits) {
   const auto points = std::ranges::count(digits, '.'), commas = std::ranges::count(digits, ',');
+  if (digits.find("..") != std::string_view::npos) return false;  // a range
   if (points <= 1 && commas <= 1) return true;
   if (points == 2 && commas <= 1) return true;
   if (points > 1 && commas > 1) return false;
@@ -218,12 +219,17 @@ std::vector<Cell> split_cells(std::string_view line, char separator) {
 
 bool is_missing(const Cell& cell) {
   if (cell.text.empty()) return true;
-  static constexpr std::array<std::string_view, 33> none{
-      "nan",          "-nan",         "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "na",    "n/a",  "n.a.",
-      "#n/a",         "#na",          "null",     "none",      "nil",     "missing", "-",     "--",   "---",
-      "\xE2\x80\x93", "\xE2\x80\x94", ".",        "?",         "#div/0!", "#value!", "#num!", "ovld", "ol",
-      "overload",     "overflow",     "inf",      "-inf",      "+inf",    "infinity"};
-  if (cell.text.size() > 9) return false;
+  static constexpr std::array<std::string_view, 32> none{
+      "nan",     "-nan", "nan(ind)", "-nan(ind)", "1.#qnan",      "-1.#ind",      "na",   "n/a",
+      "n.a.",    "#n/a", "#na",      "#nv",       "#n/d",         "null",         "none", "nil",
+      "missing", "-",    "--",       "---",       "\xE2\x80\x93", "\xE2\x80\x94", ".",    "?",
+      "ovld",    "ol",   "overload", "overflow",  "inf",          "-inf",         "+inf", "infinity"};
+  constexpr std::size_t longest = 9, longest_error = 12;
+  const bool ends_as_error = cell.text.back() == '!' || cell.text.back() == '?';
+  if (cell.text.front() == '#' && ends_as_error && cell.text.size() <= longest_error &&
+      cell.text.find(' ') == std::string_view::npos)
+    return true;  // Excel's
+  if (cell.text.size() > longest) return false;
   if (cell.text.find_first_not_of('*') == std::string_view::npos) return true;
   return is_number_digit(cell.text.back()) ? false : std::ranges::find(none, lower(cell.text)) != none.end();
 }

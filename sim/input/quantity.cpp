@@ -313,8 +313,10 @@ std::string write_with_spread(double value, double spread, std::string_view si_u
 }
 
 std::string unit_problem(std::string_view unit, std::string_view wanted) {
+  constexpr double longest_of_clocks_s = 7 * 86400.0;
   const std::string shown = shortened(unit);
-  switch (convert({}, unit, wanted)) {
+  double one = 1.0;
+  switch (convert({&one, 1}, unit, wanted)) {
     case Fit::unknown:
       return fmt::format("{} is not a unit; wanted is {}", shown, wanted);
     case Fit::wrong:
@@ -322,6 +324,8 @@ std::string unit_problem(std::string_view unit, std::string_view wanted) {
     case Fit::fits:
       break;
   }
+  if (wanted == "s" && one > longest_of_clocks_s)
+    return fmt::format("{} is too long a unit for the times of a run; wanted is {}", shown, wanted);
   return "";
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <sim/input/cells.hpp>
+#include <sim/input/quantity.hpp>
 #include <sim/input/spelling.hpp>
 
 namespace mckibben::input {
@@ -30,6 +31,12 @@ std::string Look::note_of_short_rows(std::size_t line_in_file) const {
                      short_rows, short_rows == 1 ? "" : "s", short_rows == 1 ? "s" : "", line_in_file);
 }
 
+std::string Look::note_of_summaries(std::size_t line_in_file) const {
+  return fmt::format(
+      "{} row{} with a word where the others have their first number, the first in line {}: not read",
+      summaries, summaries == 1 ? "" : "s", line_in_file);
+}
+
 Look look_at(const Source& source, const TextLayout& layout) {
   constexpr std::size_t enough_rows = 3000;  // where they have decimals
   constexpr std::size_t few = 10;            // one in so many has lost cells; more are written so
@@ -40,6 +47,7 @@ Look look_at(const Source& source, const TextLayout& layout) {
   for (std::size_t line = layout.first_row; line <= layout.last_row; ++line) {
     const Line kind = kind_of(source, layout, line);
     if (kind == Line::another && look.another_heading == 0) look.another_heading = line;
+    if (kind == Line::summary && look.summaries++ == 0) look.first_summary = line;
     if (kind != Line::row) continue;
     const std::vector<Cell> cells = row_cells(source, layout, line);
     if (!cells.empty() && cells.size() < layout.usual_cells && look.short_rows++ == 0)
@@ -58,7 +66,12 @@ Look look_at(const Source& source, const TextLayout& layout) {
     look.decimal = agreed(columns, &Spelling::goes_on);
   for (const Spelling& each : columns) {
     ColumnSpelling own;
-    if (look.decimal != '\0')
+    std::string unit;
+    Cell mass{each.group(), 0};
+    const bool is_mass = take_unit(mass, unit) && !unit.empty() && unit_problem(unit, "kg").empty();
+    if (is_mass && each.decimal() == '\0')
+      own = {each.mark(), each.group()};  // in quotes, by another program or hand than the numbers beside it
+    else if (look.decimal != '\0')
       own.decimal = look.decimal;
     else if (!each.group().empty())
       own = {each.mark(), each.group()};

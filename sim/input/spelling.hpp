@@ -21,14 +21,16 @@ struct Look {
   std::vector<ColumnSpelling> columns;
   char decimal = '\0';                          ///< of all columns; 0: none tells
   std::size_t short_rows = 0, first_short = 0;  ///< a few that have lost cells: how many, and the first line
-  std::size_t another_heading = 0;              ///< its line; 0: there is none
-  std::size_t blank_cells = 0;  ///< the first line of many between blanks that lack cells; 0: none
+  std::size_t summaries = 0, first_summary = 0;
+  std::size_t another_heading = 0;  ///< its line; 0: there is none
+  std::size_t blank_cells = 0;      ///< the first line of many between blanks that lack cells; 0: none
 
   /// Whether a row has lost cells, nobody knows which.
   bool lacks_cells(const TextLayout& layout, const std::vector<Cell>& cells) const {
     return short_rows > 0 && !cells.empty() && cells.size() < layout.usual_cells;
   }
   std::string note_of_short_rows(std::size_t line_in_file) const;
+  std::string note_of_summaries(std::size_t line_in_file) const;
 };
 
 inline constexpr std::string_view lost_between_blanks =

@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <cctype>
 
 #include <sim/input/number.hpp>
 #include <sim/input/text_block.hpp>
@@ -80,6 +81,12 @@ std::string_view without_mark(std::string_view text) {
 bool is_marked(std::string_view line) {
   line = trimmed(line);
   return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
+}
+
+bool is_word(std::string_view text) {
+  return text.size() > 1 && std::ranges::all_of(text, [](unsigned char c) {
+           return std::isalpha(c) != 0 || c >= 0x80 || c == ' ' || c == '.' || c == ':';
+         });
 }
 
 std::size_t trimmed_size(const std::vector<Cell>& cells) {

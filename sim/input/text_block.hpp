@@ -21,6 +21,9 @@ bool is_blank(std::string_view line);
 bool is_marked(std::string_view line);
 std::string_view without_mark(std::string_view text);
 
+/// Letters, blanks, points and colons alone.
+bool is_word(std::string_view text);
+
 /// Cells of a line without empty ones at its end.
 std::size_t trimmed_size(const std::vector<Cell>& cells);
 

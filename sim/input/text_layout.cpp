@@ -187,6 +187,21 @@ void name_columns(const Source& source, std::size_t width, TextLayout& layout) {
   layout.units.resize(layout.headings.size());
 }
 
+/// Of a row of words and numbers above rows of numbers; it may name the columns, if it begins with a word.
+std::string word_among_numbers(const std::vector<Cell>& cells) {
+  const auto number = std::ranges::find_if(cells, is_number_like, &Cell::text);
+  const auto word = std::ranges::find_if(
+      cells, [](const Cell& cell) { return !is_missing(cell) && !is_number_like(cell.text); });
+  if (word == cells.end()) return "this row has other cells than those below";
+  return fmt::format("this row has a word, {}, where the others have numbers{}", word->text.substr(0, 40),
+                     word > number
+                         ? ""
+                         : fmt::format("; if it names the columns, no name may begin as a number, as "
+                                       "{0} does: write x_{0}, and put columns of several loads or "
+                                       "runs into a file each",
+                                       number->text.substr(0, 40)));
+}
+
 /// Words right above the rows that are fewer than the cells below: decimal commas between commas, or a
 /// heading that lacks one. Which column is which cannot be told.
 void check_belongs(const Source& source, const Block& block, TextLayout& layout) {
@@ -197,7 +212,7 @@ void check_belongs(const Source& source, const Block& block, TextLayout& layout)
   const std::size_t size = trimmed_size(words);
   if (size == block.width && numbers_in(words).numbers > 0) {
     layout.problem_line = above;
-    layout.problem = "this row has a word where the others have numbers";
+    layout.problem = word_among_numbers(words);
     return;
   }
   if (size < 2 || block.separator == ' ' || numbers_in(words).numbers > 0 || size >= block.width) return;
@@ -239,6 +254,45 @@ void begin_with_the_first(const Source& source, const Block& block, std::size_t 
   }
 }
 
+/// Lines below the headings that are no rows: below a line of units those without a number, as remarks on the
+/// columns and ranges are; the columns' numbers, behind which the clock falls back.
+void leave_out_between(const Source& source, const Block& block, TextLayout& layout) {
+  if (layout.heading == 0 || layout.headings.size() < 2) return;
+  const auto numbers_columns = [&](std::size_t line, const std::vector<Cell>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (cells[i].text != std::to_string(i + 1)) return false;
+    const std::vector<Cell> next = split_cells(source.line(line + 1), layout.separator);
+    std::string problem;
+    return cells.size() > 2 && cells.size() == layout.headings.size() && next.size() == cells.size() &&
+           NumberReader('\0').read("", next.front(), problem).value_or(1.0) < 1.0;
+  };
+  const bool has_units = layout.first_row > layout.heading + 1;
+  for (std::size_t line = layout.first_row; line <= block.first && line < layout.last_row; ++line) {
+    if (is_blank(source.line(line)) || is_marked(source.line(line))) continue;
+    const std::vector<Cell> cells = split_cells(source.line(line), layout.separator);
+    const Numbers found = numbers_in(cells);
+    const bool words = has_units && line < block.first && found.numbers == 0 && found.empty < found.cells;
+    if (!words && !numbers_columns(line, cells)) return;
+    if (layout.between == 0) layout.between = line;
+    layout.first_row = line + 1;
+  }
+}
+
+/// Whether few rows begin with a word.
+bool has_summaries(const Source& source, const TextLayout& layout) {
+  constexpr std::size_t looked_at_below = 3000, few = 10;
+  if (!layout.begins_with_number || layout.headings.size() < 2 || layout.separator == ' ') return false;
+  std::size_t words = 0, rows = 0;
+  for (std::size_t line = layout.first_row;
+       line <= std::min(layout.last_row, layout.first_row + looked_at_below); ++line) {
+    const std::vector<Cell> cells = split_cells(source.line(line), layout.separator);
+    if (!numbers_in(cells).is_row()) continue;
+    ++rows;
+    words += is_word(cells.front().text) && !is_missing(cells.front()) ? 1 : 0;
+  }
+  return few * words <= rows;
+}
+
 /// Sums and the like below the last row: a word where rows have their first number.
 void leave_out_footer(const Source& source, std::size_t some_row, TextLayout& layout) {
   constexpr std::size_t most_below = 20;
@@ -247,11 +301,6 @@ void leave_out_footer(const Source& source, std::size_t some_row, TextLayout& la
     return cells.empty() ? std::string_view() : cells.front().text;
   };
   if (layout.headings.size() < 2 || !is_number_like(first_of(some_row))) return;
-  const auto is_word = [](std::string_view text) {
-    return text.size() > 1 && std::ranges::all_of(text, [](unsigned char c) {
-             return std::isalpha(c) != 0 || c >= 0x80 || c == ' ' || c == '.' || c == ':';
-           });
-  };
   const std::size_t last = layout.last_row;
   for (std::size_t line = last; line > some_row && line + most_below > last; --line) {
     if (is_blank(source.line(line))) continue;
@@ -267,66 +316,6 @@ std::vector<Cell> row_cells(const Source& source, const TextLayout& layout, std:
   std::vector<Cell> cells = split_cells(source.line(line), layout.separator);
   while (cells.size() > layout.headings.size() && cells.back().text.empty()) cells.pop_back();
   return cells;
-}
-
-namespace {
-
-/// Files that were put one behind the other bring each its mark.
-std::string_view without_order_mark(std::string_view line) {
-  constexpr std::string_view mark = "\xEF\xBB\xBF";
-  return line.starts_with(mark) ? line.substr(mark.size()) : line;
-}
-
-/// A line that begins with a word where rows have a number: words between rows, or the headings of another
-/// table.
-std::optional<Line> kind_of_words(std::string_view text, const TextLayout& layout) {
-  const std::size_t first = text.find_first_not_of(" \t\"");
-  const auto begin = first == std::string_view::npos ? ' ' : static_cast<unsigned char>(text[first]);
-  if (!layout.begins_with_number || (std::isalpha(begin) == 0 && begin < 0x80)) return std::nullopt;
-  const std::vector<Cell> cells = split_cells(text, layout.separator);
-  if (cells.empty() || is_missing(cells.front()) || is_number_like(cells.front().text)) return std::nullopt;
-  const std::size_t size = trimmed_size(cells);
-  const bool numbers = layout.separator != ' ' && numbers_in(cells).numbers > 0;
-  if (numbers) return std::nullopt;
-  if (size != layout.headings.size() && size != layout.usual_cells) return Line::remark;
-  if (std::ranges::any_of(cells, [](const Cell& cell) { return names_time(cell.text); }))
-    return Line::another;
-  return std::nullopt;
-}
-
-}  // namespace
-
-namespace {
-
-/// `5 kg` alone in a table of several columns: the title of the rows below it.
-bool is_title(std::string_view text, const TextLayout& layout) {
-  const std::size_t last = text.find_last_not_of(" \t,;|\"\r");
-  if (layout.headings.size() < 2 || last == std::string_view::npos ||
-      std::isalpha(static_cast<unsigned char>(text[last])) == 0)
-    return false;
-  std::vector<Cell> cells{{trimmed(text), 0}};
-  if (layout.separator != ' ') cells = split_cells(text, layout.separator);
-  std::erase_if(cells, [](const Cell& cell) { return cell.text.empty(); });
-  std::string unit;
-  return cells.size() == 1 && take_unit(cells.front(), unit) && !unit.empty();
-}
-
-}  // namespace
-
-Line kind_of(const Source& source, const TextLayout& layout, std::size_t line) {
-  const std::string_view text = without_order_mark(source.line(line));
-  if (is_blank(text)) return Line::blank;
-  for (std::size_t head = layout.heading; head > 0 && head < layout.first_row; ++head)
-    if (without_order_mark(source.line(head)) == text) return Line::heading;
-  if (is_marked(text) || is_title(text, layout)) return Line::remark;
-  if (const auto words = kind_of_words(text, layout)) return *words;
-  const bool has_separator = layout.separator != ' ' && text.find(layout.separator) != std::string_view::npos;
-  if (has_separator || layout.headings.size() < 2) return Line::row;
-  const bool has_number =
-      std::ranges::any_of(split_cells(text, ' '), [](const Cell& cell) { return is_number_like(cell.text); });
-  return has_number && layout.separator == ' '                                       ? Line::row
-         : is_number_like(trimmed(text)) || text.find('"') != std::string_view::npos ? Line::row
-                                                                                     : Line::remark;
 }
 
 std::size_t index_of(const TextLayout& layout, std::string_view name) {
@@ -393,8 +382,10 @@ TextLayout layout_of(const Source& source, std::span<const WantedColumn> wanted)
       }
     if (says && head.line > layout.heading) layout.first_row = head.line + 1;
   }
+  leave_out_between(source, block, layout);
   begin_with_the_first(source, block, from, layout);
   leave_out_footer(source, block.first, layout);
+  layout.has_summaries = has_summaries(source, layout);
   if (layout.head > from && !is_marked(source.line(layout.head - 1))) {
     const Numbers above = numbers_in(split_cells(source.line(layout.head - 1), layout.separator));
     if (above.cells > 1 && above.numbers == above.cells) layout.unread = layout.head - 1;

@@ -29,6 +29,9 @@ struct TextLayout {
       0;  ///< the first of some lines below the table that begin with a word; 0: there are none
   std::size_t usual_cells = 0;      ///< of a row, with empty ones
   bool begins_with_number = false;  ///< the first cell of rows is one
+  bool has_summaries = false;       ///< few rows begin with a word
+  std::size_t between =
+      0;  ///< the first line below the headings that is no row, as a remark on each column is
   std::size_t unread = 0;  ///< a line of numbers right above the table that is no row of it; 0: there is none
 };
 
@@ -36,10 +39,10 @@ struct TextLayout {
 TextLayout layout_of(const Source& source, std::span<const WantedColumn> wanted);
 
 /// What a line of a table is: a row, or nothing, a remark, its headings again (where a recorder began anew),
-/// the headings of another table.
-enum class Line { row, blank, remark, heading, another };
+/// the headings or units of another table, sums or means of rows above.
+enum class Line { row, blank, remark, heading, another, summary };
 inline constexpr std::string_view another_table =
-    "another table begins here, with other headings; put each into a file of its own";
+    "another table begins here, with other headings or units; put each into a file of its own";
 Line kind_of(const Source& source, const TextLayout& layout, std::size_t line);
 
 /// The cells of a line without empty ones beyond the headings; none if a quote is not closed.

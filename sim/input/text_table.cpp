@@ -192,6 +192,8 @@ Table read_text(const Source& source, std::span<const WantedColumn> wanted, Tabl
   if (layout.footer > 0)
     problems.note({layout.footer, 1},
                   "this line and those below begin with a word, where rows have a number: not read");
+  if (layout.between > 0)
+    problems.note({layout.between, 1}, "this line between the headings and the first row is not read");
   const Look look = look_at(source, layout);
   if (look.another_heading > 0) problems.add({look.another_heading, 1}, std::string(another_table));
   const Table::Column* const time = table.find("time_s");
@@ -202,6 +204,8 @@ Table read_text(const Source& source, std::span<const WantedColumn> wanted, Tabl
   if (problems.count() > 0) return table;
   if (leaves_out)
     problems.note({look.first_short, 1}, look.note_of_short_rows(source.line_in_file(look.first_short)));
+  if (look.summaries > 0)
+    problems.note({look.first_summary, 1}, look.note_of_summaries(source.line_in_file(look.first_summary)));
   EpochReader epoch;
   std::vector<ColumnReader> readers;
   for (Table::Column& column : table.columns)

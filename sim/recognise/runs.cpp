@@ -62,6 +62,8 @@ std::optional<LoadGuess> load_of(const UnknownColumn& column, double value) {
   if (const auto load = load_in(text)) return LoadGuess{*load, fmt::format("its {} says so", column.name)};
   if (!names_a_load(column.name) || !column.texts.empty()) return std::nullopt;
   const std::string unit = heading_of(column).unit;
+  if (!column.either.empty())
+    return LoadGuess{std::string(domain::fill_in), decimals_or_thousands(column.either).reason};
   if (!unit.empty() && value > 0.0 && input::unit_problem(unit, "kg").empty())
     return LoadGuess{fmt::format("{} {}", text, unit), fmt::format("the column {} says so", column.name)};
   std::vector<double> mass_kg{value};

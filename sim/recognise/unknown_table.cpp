@@ -187,6 +187,7 @@ void read_text(const Source& source, UnknownTable& table) {
     table.remarks.emplace_back(source.line(line));
     if (const auto said = setting_in(source.line(line))) table.settings.push_back(*said);
   }
+  if (layout.between > 0) table.words.push_back(fmt::format("line {}", source.line_in_file(layout.between)));
   if (layout.unread > 0) table.words.push_back(fmt::format("line {}", layout.unread));
   if (layout.footer > 0)
     table.words.push_back(fmt::format("line {} and those below", source.line_in_file(layout.footer)));
@@ -203,10 +204,9 @@ void read_text(const Source& source, UnknownTable& table) {
   const input::Look look = input::look_at(source, layout);
   if (look.another_heading > 0) refuse(source, {look.another_heading, 1}, std::string(input::another_table));
   if (look.blank_cells > 0) refuse(source, {look.blank_cells, 1}, std::string(input::lost_between_blanks));
-  if (look.short_rows > 0) {
-    const std::string lost = look.note_of_short_rows(source.line_in_file(look.first_short));
-    table.note = table.note.empty() ? lost : table.note + "; " + lost;
-  }
+  const auto note = [&](const std::string& lost) { table.note += (table.note.empty() ? "" : "; ") + lost; };
+  if (look.short_rows > 0) note(look.note_of_short_rows(source.line_in_file(look.first_short)));
+  if (look.summaries > 0) note(look.note_of_summaries(source.line_in_file(look.first_summary)));
   table.decimal = look.decimal;
   std::vector<input::NumberReader> readers;
   for (std::size_t i = 0; i < all.size(); ++i) {

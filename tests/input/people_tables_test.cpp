@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/input/cells.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/text_layout.hpp>
@@ -76,6 +77,12 @@ const Kind tables[] = {
      "{time: {column: Zeit, unit: s}, current: {column: Strom, unit: mA}, contraction: {column: Länge, unit: "
      "mm}}",
      "Zeit;Strom;L\xE4nge\n0;4;0\n0,012;4,5;3\n"},
+    {"remarks_below_units", german, "Zeit;Strom;Weg\ns;mA;mm\n;valve;laser\n0;4;0\n0,012;4,5;3\n"},
+    {"ranges_below_units", german, "Zeit;Strom;Weg\ns;mA;mm\n0..10;4..20;0..30\n0;4;0\n0,012;4,5;3\n"},
+    {"numbers_of_columns", german, "Zeit;Strom;Weg\n1;2;3\n0;4;0\n0,012;4,5;3\n"},
+    {"records", german,
+     "[{'Zeit': 0, 'Strom': 4, 'Weg': 0},\n {'Zeit': 0.012, 'Strom': 4.5,\n  'Weg': 3}]\n"},
+    {"labels_and_units", german, "Zeit:0 s Strom:4 mA Weg:0 mm\nZeit:0.012 s Strom:4.5 mA Weg:3 mm\n"},
     {"dates", dated, "Zeit;Strom;Weg\n2024-05-03 23:59:59,990;4;0\n2024-05-04T00:00:00.002;4,5;3\n"},
     {"dates_in_german", dated, "Zeit;Strom;Weg\n03.05.2024 14:22:01,5;4;0\n03.05.2024 14:22:01,512;4,5;3\n"},
     {"dates_in_american", dated,
@@ -108,6 +115,12 @@ TEST(TextLayout, WhatIsNoUnitIsARow) {
   EXPECT_EQ(layout.heading, 2u);
   EXPECT_EQ(layout.first_row, 4u);
   EXPECT_EQ(layout.units, (std::vector<std::string>{"mA", "deg"}));
+}
+
+TEST(Cells, ErrorsOfExcelInAnyLanguage) {
+  for (const char* none : {"#WERT!", "#DIV/0!", "#¡VALOR!", "#NAME?", "#NV", "#N/D", "#NOMBRE!"})
+    EXPECT_TRUE(is_missing({none, 0})) << none;
+  for (const char* some : {"# late!", "#7", "5", "on!"}) EXPECT_FALSE(is_missing({some, 0})) << some;
 }
 
 TEST(Dates, OtherDaysZonesAndWhatIsNone) {
