@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <sim/linear/system.hpp>
 
@@ -49,19 +50,26 @@ std::vector<Complex> poles(const System& system) {
   return sorted({values.begin(), values.end()});
 }
 
+// Inputs that keep the output at 0 also keep its first r - 1 derivatives there, which have no input in them.
+// What moves then moves in the kernel of all of these.
 std::vector<Complex> zeros(const System& system) {
+  constexpr double rounding = 1e-12;
   const Eigen::Index n = system.states();
-  Matrix pencil(n + 1, n + 1);
-  pencil << system.A, system.B, system.C, system.D;
-  Matrix of_state = Matrix::Zero(n + 1, n + 1);
-  of_state.topLeftCorner(n, n).setIdentity();
-  const Eigen::GeneralizedEigenSolver<Matrix> solver(pencil, of_state, false);
-  constexpr double fastest_per_s = 1e7;  // no part of a rig is quicker (plant::Rig::quickest_s)
-  std::vector<Complex> finite;
-  for (Eigen::Index i = 0; i <= n; ++i)
-    if (std::abs(solver.alphas()[i]) < fastest_per_s * std::abs(solver.betas()[i]))
-      finite.push_back(solver.alphas()[i] / solver.betas()[i]);
-  return sorted(finite);
+  const Eigen::VectorXd input = system.B.col(0);
+  Matrix still(n, n);
+  Eigen::RowVectorXd row = system.C.row(0);
+  for (Eigen::Index r = 1; r <= n && row.norm() > 0.0; ++r, row = (row * system.A).eval()) {
+    still.col(r - 1) = row.transpose().normalized();
+    const double direct = row.dot(input);
+    if (std::abs(direct) <= rounding * row.norm() * input.norm()) continue;
+    const Matrix held = system.A - input * (row * system.A) / direct;
+    const Matrix turned = still.leftCols(r).householderQr().householderQ();
+    const Matrix kernel = turned.rightCols(n - r);
+    if (n == r) return {};
+    const Eigen::VectorXcd values = (kernel.transpose() * held * kernel).eval().eigenvalues();
+    return sorted({values.begin(), values.end()});
+  }
+  return {};
 }
 
 Complex response(const System& system, double rad_per_s) {

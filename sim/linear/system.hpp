@@ -22,7 +22,7 @@ struct System {
 
 /// Sorted by size, then by imaginary part.
 std::vector<Complex> poles(const System& system);
-/// Of one input and one output: where the pencil [A - s I, B; C, D] loses rank, those at infinity left out.
+/// Of one input and one output with D = 0: what may move while the output stays at 0.
 std::vector<Complex> zeros(const System& system);
 
 /// Of one input and one output, at a frequency [rad/s].

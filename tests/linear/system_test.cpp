@@ -37,6 +37,18 @@ TEST(System, HasThePolesZerosAndGainsOfItsFraction) {
   EXPECT_NEAR(std::abs(response(swinging(), 1.7) - (s + 3.0) / (s * s + 2.0 * s + 5.0)), 0.0, 1e-12);
 }
 
+/// However many poles there are more than zeros, none comes from far away.
+TEST(System, HasNoZerosThatItsFractionHasNot) {
+  System chain = lag(0.5);
+  for (const double time_s : {0.1, 2.0, 1e-3, 0.03}) chain = in_series(chain, lag(time_s));
+  EXPECT_TRUE(zeros(chain).empty());
+  const auto nulls = zeros(in_series(chain, swinging()));
+  ASSERT_EQ(nulls.size(), 1u);
+  EXPECT_NEAR(std::abs(nulls[0] - Complex(-3.0, 0.0)), 0.0, 1e-6);
+  chain.B.setZero();
+  EXPECT_TRUE(zeros(chain).empty());
+}
+
 TEST(System, InSeriesAndClosedAsTheirFractions) {
   const System loop = in_series(lag(0.5), swinging());
   for (const double w : {0.3, 2.0, 9.0}) {
