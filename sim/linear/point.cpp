@@ -306,8 +306,7 @@ Point point_at(const plant::Rig& rig, double load_kg, const Place& place, Thread
   if (plant.opposite())
     point.direction[1] = -plant.side().reference_slope_Pa_per_mA(commands[0]) /
                          plant.opposite()->reference_slope_Pa_per_mA(commands[1]);
-  if (plant.lever()) point.shown = rig.joint.wheel_radius_m / l0;
-  point.shown *= rig.effects.get<plant::EncoderScale>().reading_factor();
+  point.shown = rig.effects.get<plant::EncoderScale>().reading_factor();
   point.command_delay_s = rig.effects.command_delay_s();
   point.reading_delay_s = mean_delay_s(rig);
   return point;

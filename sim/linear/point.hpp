@@ -39,7 +39,7 @@ struct Point {
   /// What a loop's output does to the commands: of a pair the second muscle is vented as the first is filled.
   Eigen::VectorXd direction;
   Matrix dry;          ///< of threads that slide, and the load's guide: A loses 4/(pi V) of it in a swing
-  double shown = 1.0;  ///< what a controller's gain is for, by a unit of position
+  double shown = 1.0;  ///< what is read for a unit of position
   double command_delay_s = 0.0, reading_delay_s = 0.0;
 
   double delay_s() const { return command_delay_s + reading_delay_s; }

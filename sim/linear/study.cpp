@@ -5,6 +5,7 @@ namespace mckibben::linear {
 
 bool is_linear(const controllers::Settings& settings) {
   return std::holds_alternative<controllers::PidSettings>(settings) ||
+         std::holds_alternative<controllers::LeverPidSettings>(settings) ||
          std::holds_alternative<controllers::PairPidSettings>(settings);
 }
 

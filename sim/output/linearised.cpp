@@ -145,7 +145,7 @@ std::string pid_line(const Linearised& all, const Study& study) {
   return fmt::format(
       "{{kind: pid, name: pid_by_margins, proportional: {:.4g} {}, integral_time: {:.4g} s, derivative_time: "
       "{:.4g} s}}",
-      gains.proportional_mA, command_unit(all) + (all.rig.pair() ? "/rad" : ""), gains.integral_time_s,
+      gains.proportional_mA, command_unit(all) + (all.rig.has_angle() ? "/rad" : ""), gains.integral_time_s,
       gains.derivative_time_s);
 }
 

@@ -68,6 +68,24 @@ TEST_F(Linearise, PidByMarginsCanBePastedIntoTheScenario) {
               document.at("points").at(0).at("loops").at(2).at("phase_margin_rad").get<double>(), 2e-3);
 }
 
+/// A gain of a lever is for a radian, here as in the scenario.
+TEST_F(Linearise, LoopsOfALeverHaveTheMarginsThatTheirLinesPromise) {
+  const std::string lever = "schema: mckibben-scenario/1\nrig: " MCKIBBEN_SOURCE_DIR
+                            "/scenarios/rigs/forearm.yaml\nloads: [2 kg]\nduration: 1 s\n"
+                            "target: {kind: steps, start: 30 deg, moves: []}\ncontrollers:\n";
+  write_text(scratch / "lever.yaml",
+             lever + "  - {kind: pid, proportional: 2 mA/rad, integral_time: 1 s, derivative_time: 0.1 s}\n");
+  const auto document = result_of("lever.yaml --at '50 deg' --margins '60 deg'");
+  const auto& point = document.at("points").at(0);
+  ASSERT_EQ(point.at("loops").size(), 2u);
+  const auto line = point.at("pid_by_margins").get<std::string>();
+  EXPECT_TRUE(holds(line, " mA/rad, "));
+  write_text(scratch / "pasted.yaml", lever + "  - " + line + "\n");
+  const auto again = result_of("pasted.yaml --at '50 deg'");
+  const double pasted = again.at("points").at(0).at("loops").at(0).at("gain_margin").get<double>();
+  EXPECT_NEAR(pasted / point.at("loops").at(1).at("gain_margin").get<double>(), 1.0, 2e-3);  // four digits
+}
+
 /// In place of python-control a module that keeps what it is handed.
 TEST_F(Linearise, PythonProgramMakesTheSystem) {
   const auto document = result_of("loops.yaml --at 0.15 --lqr '1 mA' --out made");
