@@ -128,8 +128,7 @@ std::optional<LoadGuess> load_of(const UnknownTable& table) {
     for (const std::string& mass : found.others) add(others, mass);
     if (!found.loads.empty() && reason.empty()) reason = why;
   };
-  for (const std::string& part : table.part)
-    if (part.starts_with("sheet: ")) look(part.substr(part.find(' ') + 1), true, "its sheet's name says so");
+  look(table.sheet, true, "its sheet's name says so");
   look(table.path.stem().string(), true, "the file's name says so");
   for (const std::string& line : table.remarks) look(line, false, "a line above its headings says so");
   if (loads.empty()) look(table.path.parent_path().filename().string(), true, "the folder's name says so");

@@ -342,6 +342,18 @@ std::vector<UnknownTable> cut_by_lines(UnknownTable table) {
   return parts;
 }
 
+/// Where a line above the first part names its load, one above this that names none may say another.
+void say_titles(UnknownTable& part) {
+  const auto names_a_mass = [](const std::string& text) { return !masses_in(text, false).loads.empty(); };
+  const auto title = std::ranges::find_if(part.between, [](const Between& each) { return each.row == 0; });
+  if (part.load || title == part.between.end() || names_a_mass(title->text) ||
+      std::ranges::none_of(part.remarks, names_a_mass))
+    return;
+  part.load =
+      LoadGuess{std::string(domain::fill_in),
+                fmt::format("line {}, above these rows, names no load: {}", title->line, title->text)};
+}
+
 }  // namespace
 
 std::vector<UnknownTable> runs_in(const UnknownTable& table) {
@@ -373,6 +385,7 @@ std::vector<UnknownTable> runs_in(const UnknownTable& table) {
     } else {
       say_restarts(parts, stamps->name);
     }
+    for (std::size_t i = 1; i < parts.size(); ++i) say_titles(parts[i]);
     for (UnknownTable& part : parts) {
       const std::optional<Long> own = long_table(part);
       if (own)

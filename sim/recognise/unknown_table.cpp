@@ -377,6 +377,7 @@ std::vector<UnknownTable> read_unknown(const std::filesystem::path& path, std::u
     const std::size_t segments = labview ? runs_of_labview(source) : 1;
     for (std::size_t i = 1; i <= segments; ++i) {
       tables.push_back(read_one(path, source, segments > 1 ? i : 0));
+      tables.back().sheet = name;
       if (sheets.size() > 1) tables.back().part.push_back("sheet: " + domain::yaml_scalar(name));
       if (segments > 1) tables.back().part.push_back(fmt::format("segment: {}", i));
     }

@@ -47,6 +47,7 @@ struct Between {
 
 struct UnknownTable {
   std::filesystem::path path;
+  std::string sheet{};  ///< its name; empty: the file has none
   domain::InputFile input;
   std::vector<std::string> remarks;  ///< lines above the headings
   std::vector<Remark> settings;      ///< those of them that say a value

@@ -295,6 +295,17 @@ TEST_F(Asked, AMassAloneInARowIsTheTitleOfTheRowsBelow) {
   }
 }
 
+TEST_F(Asked, ATitleThatNamesNoLoadMaySayAnother) {
+  const auto row = [](int k) {
+    return fmt::format("{}{:.3f},{:.3f},{:.2f}", k == 100 ? "as above, heavier\nt_s,p_bar,x_mm\n" : "",
+                       0.012 * (k % 100), 5 * drive(k), 10 * drive(k));
+  };
+  const Recognised found = of("load 5 kg\nt_s,p_bar,x_mm\n", row, "runs.csv");
+  ASSERT_EQ(found.runs.size(), 2u);
+  EXPECT_EQ(found.runs[0].load->value, "5 kg");
+  EXPECT_EQ(found.runs[1].load->value, domain::fill_in);
+}
+
 TEST_F(Asked, UnitsThatAreNotTheLastWord) {
   const auto row = [](int k) { return fmt::format("{},{:.3f},{:.3f}", k, 5 * drive(k), 10 * drive(k)); };
   const auto guess = [&](const char* head, const char* key) { return column(of(head, row), key); };
