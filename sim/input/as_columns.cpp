@@ -45,7 +45,8 @@ std::size_t end_of_value(std::string_view line, std::size_t from, char quote, st
   return is_label || unit_word(line.substr(unit, behind - unit)).empty() ? end : behind;
 }
 
-/// `p:1.2, x = 3`, and in braces `'state': 'on'`; none if anything else stands in the line.
+/// `p:1.2, x = 3`, and in braces `'state': 'on'`; none if anything else stands in the line, or a
+/// label twice.
 Pairs pairs_in(std::string_view line) {
   constexpr std::string_view between = " \t,;\"'{}[]|", ends = " \t,;\"{}[]|";
   const bool braces = trimmed(line).starts_with('{');
@@ -65,6 +66,7 @@ Pairs pairs_in(std::string_view line) {
     const std::string_view value = line.substr(from, to - from);
     const bool text = braces && quoted && value.find('\t') == std::string_view::npos;
     if (!text && !is_number_like(value) && !is_missing({value, 0})) return {};
+    if (std::ranges::find(pairs, label, &Pairs::value_type::first) != pairs.end()) return {};
     pairs.emplace_back(label, value);
     if (pairs.size() > most_labels) return {};
     at = line.find_first_not_of(between, to);
@@ -72,7 +74,8 @@ Pairs pairs_in(std::string_view line) {
   return pairs.size() > 1 ? pairs : Pairs{};
 }
 
-/// Records, wherever their lines end: a line for each, and the line where it begins. Empty: there are none.
+/// Records, wherever their lines end: a line for each, and the line where it begins.
+/// Empty: there are none.
 std::vector<std::pair<std::string, std::size_t>> records_in(const Source& source) {
   const std::string_view text = source.text();
   constexpr std::string_view blank = " \t\r\n";
@@ -80,14 +83,14 @@ std::vector<std::pair<std::string, std::size_t>> records_in(const Source& source
   const std::size_t list = std::min(text.find_first_not_of(blank), text.size());
   const std::size_t first = text.find_first_not_of(blank, list + 1);
   if (first == std::string_view::npos || text[list] != '[' || text[first] != '{') return records;
-  std::size_t line = 1, open = std::string_view::npos, began = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
+  auto line = static_cast<std::size_t>(1 + std::ranges::count(text.substr(0, first), '\n'));
+  std::size_t open = 0, began = 0, depth = 0;
+  for (std::size_t at = first; at < text.size(); ++at) {
     line += text[at] == '\n' ? 1 : 0;
-    if (text[at] == '{') open = at, began = line;
-    if (text[at] != '}' || open == std::string_view::npos) continue;
+    if (text[at] == '{' && depth++ == 0) open = at, began = line;
+    if (text[at] != '}' || depth == 0 || --depth > 0) continue;
     records.emplace_back(text.substr(open, at + 1 - open), began);
     std::ranges::replace(records.back().first, '\n', ' ');
-    open = std::string_view::npos;
   }
   return records;
 }
@@ -121,7 +124,11 @@ bool move_stamps(Lines& lines) {
     const bool words = !holds_number(rest) ||
                        std::ranges::none_of(split_cells(rest, apart),
                                             [](const Cell& cell) { return is_number_like(cell.text); });
-    if (!words)
+    if (!pairs_in(rest).empty()) {
+      std::string stamp = line.substr(0, at);
+      std::ranges::replace(stamp, ' ', 'T');
+      line = rest + " monitor_time:" + stamp;
+    } else if (!words)
       line = rest + apart + line.substr(0, at);
     else
       line = separator == std::string::npos ? rest : rest + apart + "monitor_time";
@@ -222,8 +229,8 @@ std::optional<Source> as_columns(const Source& source) {
       begin.find("sec") != std::string_view::npos || begin.find_first_of(":=") != std::string_view::npos;
   if (!may) return std::nullopt;
   Lines lines;
-  const auto records = records_in(source);
-  for (const auto& [record, line] : records) lines.push_back(record);
+  auto records = records_in(source);
+  for (auto& [record, line] : records) lines.push_back(std::move(record));
   for (std::size_t number = 1; records.empty() && number <= source.lines(); ++number) {
     lines.emplace_back(source.line(number));
     if (number == looked_at) {  // most files are no such log

@@ -69,7 +69,7 @@ Look look_at(const Source& source, const TextLayout& layout) {
     std::string unit;
     Cell mass{each.group(), 0};
     const bool is_mass = take_unit(mass, unit) && !unit.empty() && unit_problem(unit, "kg").empty();
-    if (is_mass && each.decimal() == '\0')
+    if (is_mass && each.decimal() == '\0' && each.mark() != look.decimal)
       own = {each.mark(), each.group()};  // in quotes, by another program or hand than the numbers beside it
     else if (look.decimal != '\0')
       own.decimal = look.decimal;

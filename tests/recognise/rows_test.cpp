@@ -92,6 +92,22 @@ TEST_F(RowsAndFormats, RecordsAndLabelsWithUnits) {
     EXPECT_FALSE(column(found, "contraction").unit.open());
   }
   EXPECT_EQ(column(of("", labels), "muscle_pressure").unit.value, "kPa");
+  EXPECT_EQ(of("[",
+               [](int k) {
+                 return fmt::format("{{\"t_s\": {},\n\"arm\": {{\"x_mm\": {}, \"p_bar\": {}}}}},", 0.012 * k,
+                                    k, drive(k));
+               })
+                .tables[0]
+                .find("t_s")
+                ->values.at(1),
+            0.012)
+      << "records in records";
+  try {  // whose x?
+    of("[\n", [](int k) { return fmt::format("{{\"t\": {}, \"arm\": {{\"x\": {}, \"t\": 1}}}},", k, k); });
+    FAIL();
+  } catch (const input::BadInput& bad) {
+    EXPECT_TRUE(holds(bad.what(), "no column of numbers"));
+  }
   try {
     recognise({folder_.write("5kg.txt", "{\"t\": [0, 1], \"p\": [1, 2]}\n")}, true);
     FAIL();
@@ -135,6 +151,14 @@ TEST_F(RowsAndFormats, AYearIsNoUnitOfAClock) {
   EXPECT_TRUE(column(found, "time").unit.open());
 }
 
+TEST_F(RowsAndFormats, AStampBeforeLabelsIsTheTime) {
+  const Recognised found = of("", [](int k) {
+    return fmt::format("14:22:{:06.3f} -> p:{:.3f} bar x:{:.3f} mm", 0.012 * k, 5 * drive(k), 10 * drive(k));
+  });
+  EXPECT_EQ(column(found, "time").column.value, "monitor_time");
+  EXPECT_NEAR(found.tables[0].find("monitor_time")->values.at(1), 0.012, 1e-9);
+}
+
 TEST_F(RowsAndFormats, AMassWithASignThatMayBeEither) {
   const Recognised found = of(
       "t_s,p_bar,x_mm,Load\n",
@@ -142,6 +166,16 @@ TEST_F(RowsAndFormats, AMassWithASignThatMayBeEither) {
         return fmt::format("{:.3f},{:.3f},{:.3f},\"11,138 kg\"", 0.012 * k, 5 * drive(k), 10 * drive(k));
       },
       "a.csv");
+  EXPECT_EQ(of(
+                "t_s,p_bar,x_mm,Load\n",
+                [](int k) {
+                  return fmt::format("{:.3f},{:.3f},{:.3f},11.138 kg", 0.012 * k, 5 * drive(k),
+                                     10 * drive(k));
+                },
+                "a.csv")
+                .runs[0]
+                .load->value,
+            "11.138 kg");
   ASSERT_TRUE(found.runs[0].load);
   EXPECT_TRUE(found.runs[0].load->open());
   EXPECT_TRUE(holds(found.runs[0].load->reason, "11,138 kg", "decimals"));
