@@ -150,9 +150,12 @@ class Recogniser {
       const Clock clock = clock_of(seconds);
       if (step_s_ == 0.0) step_s_ = clock.step_s;
       if (const auto fall = std::ranges::adjacent_find(seconds, std::greater<>()); fall != seconds.end())
-        remark(i, fmt::format("its stamps fall back at row {}, by {:.4g} s: sort its rows, or take out those "
-                              "that are wrong",
-                              fall - seconds.begin() + 2, *fall - *(fall + 1)));
+        for (ColumnGuess& guess : all_.maps[all_.runs[i].map].columns)
+          if (guess.quantity->key == "time")
+            guess.unit =
+                left_open(fmt::format("its stamps fall back at row {}, by {:.4g} s: is it the clock? Sort "
+                                      "its rows, or take out those that are wrong",
+                                      fall - seconds.begin() + 2, *fall - *(fall + 1)));
       if (!done.empty()) remark(i, done);
       if (!done.empty()) turns(i);
       even = even && done.empty() && !all_.tables[i].reordered;  // only stamps can be mended
