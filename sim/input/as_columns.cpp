@@ -188,14 +188,19 @@ bool join_nanoseconds(Lines& lines) {
   return false;
 }
 
-/// Where each number has its label: labels as headings, numbers below. Where the headings stand; npos: there
-/// are no labels.
+/// Where each number has its label, and labels come again: labels as headings, numbers below. Where the
+/// headings stand; npos: there are no labels.
 std::size_t take_labels(Lines& lines) {
   if (!most(lines, [](std::string_view line) { return !pairs_in(line).empty(); })) return std::string::npos;
   std::vector<std::string> labels;
+  std::size_t again = 0;
   for (std::size_t k = 0; k < std::min(lines.size(), looked_at); ++k)
     for (const auto& [label, value] : pairs_in(lines[k]))
-      if (std::ranges::find(labels, label) == labels.end()) labels.emplace_back(label);
+      if (std::ranges::find(labels, label) == labels.end())
+        labels.emplace_back(label);
+      else
+        ++again;
+  if (again == 0) return std::string::npos;  // settings
   std::size_t first = std::string::npos;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const Pairs pairs = pairs_in(lines[k]);
