@@ -242,7 +242,8 @@ int on_bench(const ControlOptions& options, const Scenario& scenario, const run:
     const std::string document = document_of(scenario, options, recorded), text = text_of(scenario, recorded);
     job.write("control.json", document);
     job.write("table.txt", text);
-    const int status = job.finish({document, text}, recorded.stopped.empty() ? done : failure);
+    const int status = job.finish({document, text}, recorded.stopped.empty() ? done : failure,
+                                  "diagnose " + job.where().string());
     rows.remove();
     return recorded.by_user && status == failure ? static_cast<int>(interrupted) : status;
   } catch (const output::CannotWrite&) {

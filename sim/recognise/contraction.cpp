@@ -115,7 +115,9 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
     contraction.zero = zero_told(contraction, drive, found, range, driven.low, heading.is_length,
                                  gauge != nullptr && reads_nothing(*gauge, tables), rig);
   else if (std::abs(at_rest) > near_rest_share * (range.high - range.low))
-    contraction.zero = left_open("what it reads with the muscle at its rest length, in its unit");
+    contraction.zero = left_open(
+        "what it reads with the muscle at its rest length, before factor is multiplied: 7.5 of 0 "
+        "to 10 V");
 }
 
 }  // namespace mckibben::recognise

@@ -255,7 +255,9 @@ class Recogniser {
   void rig() {
     set("muscle.rest_length",
         left_open("from end to end of the braid, without pressure and load: 180 mm ± 1 mm"));
-    set("muscle.rest_radius", left_open("of the braid, without pressure: 6 mm ± 0.2 mm"));
+    set("muscle.rest_radius", left_open("of the braid, without pressure: 6 mm ± 0.2 mm (of a Festo muscle "
+                                        "delete it and the angle, and write base: "
+                                        "festo_dmsp_10, _20 or _40)"));
     set("muscle.braid_angle", left_open("between threads and axis, without pressure: 23 deg ± 1 deg"));
     valve();
     const ColumnGuess* contraction = first_map().find("contraction");
@@ -317,6 +319,10 @@ class Recogniser {
     const std::string recorded =
         unit.empty() ? "" : fmt::format("{:.4g} to {:.4g} {} were recorded", range.low, range.high, unit);
     constexpr double slack = 1.01;
+    if (unit == "V" || unit == "bar")
+      set("valve.kind",
+          left_open("regulator, which keeps the pressure that is asked for (then also time_constant), or "
+                    "servo, whose opening follows the error"));
     if (unit == "bar") {
       const std::string span = fmt::format("{} bar", std::ceil(range.high));
       command_range("0 bar", span, "a command in bar is the pressure itself; " + recorded);

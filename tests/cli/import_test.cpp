@@ -65,7 +65,7 @@ TEST_F(Import, ThePictureSaysAUnitOnce) {
 TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   const Said said = mckibben("import bench/load_5kg.csv --out mine", scratch_);
   ASSERT_EQ(said.status, 0) << said.err;
-  EXPECT_TRUE(holds(said.out, "7 values are to be filled in (FILL_IN) in mine; then: mckibben check mine"));
+  EXPECT_TRUE(holds(said.out, "8 values are to be filled in (FILL_IN) in mine; then: mckibben check mine"));
   EXPECT_TRUE(holds(read_text(scratch_ / "mine/understood.svg"), "contraction: (Laser [mm] - FILL_IN) x -1"));
   const Said refused = mckibben("check mine", scratch_);
   EXPECT_EQ(refused.status, 65);
@@ -75,6 +75,7 @@ TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   for (const auto& [key, value] : {std::pair{"rest_length", "180 mm"},
                                    {"rest_radius", "6 mm"},
                                    {"braid_angle", "23 deg"},
+                                   {"kind", "servo"},
                                    {"zero_pressure", "0 bar"},
                                    {"span_pressure", "6 bar"},
                                    {"supply_pressure", "7 bar"}})

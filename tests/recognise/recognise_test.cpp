@@ -104,7 +104,7 @@ TEST_F(Recognise, ALaserThatFallsAndARegulatorInVolts) {
   EXPECT_EQ(setting(found.rig, "valve.span_command")->told.value, "10 V");
   EXPECT_TRUE(setting(found.rig, "valve.span_pressure")->told.open());
   EXPECT_EQ(setting(found.rig, "tick")->told.value, "10 ms");
-  EXPECT_EQ(found.open(), 6u) << "muscle's three, valve's three";
+  EXPECT_EQ(found.open(), 7u) << "muscle's three, valve's four";
   EXPECT_EQ(recognise({folder_ / "b_7,5kg.csv"}, true).open(), 0u) << "the rig is known";
   const auto shown_mm = shown(found.tables[0], *map.find("contraction"));
   EXPECT_NEAR(shown_mm[105], 30.0, 0.7) << "up as the muscle contracts";
