@@ -320,9 +320,8 @@ class Recogniser {
         unit.empty() ? "" : fmt::format("{:.4g} to {:.4g} {} were recorded", range.low, range.high, unit);
     constexpr double slack = 1.01;
     if (unit == "V" || unit == "bar")
-      set("valve.kind",
-          left_open("regulator, which keeps the pressure that is asked for (then also time_constant), or "
-                    "servo, whose opening follows the error"));
+      set("valve.kind", left_open("regulator, which keeps its target pressure (then also time_constant), or "
+                                  "servo, whose opening follows the error"));
     if (unit == "bar") {
       const std::string span = fmt::format("{} bar", std::ceil(range.high));
       command_range("0 bar", span, "a command in bar is the pressure itself; " + recorded);
