@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_left_out = 20;  // one row in so many
 
-/// Rows that repeat the stamp before. They stand same if each repeats its readings, too: those of a coarse
+/// Rows that repeat the stamp before. They stand twice if each repeats its readings, too: those of a coarse
 /// clock differ where anything moves.
 std::vector<std::size_t> doubled(const std::vector<double>& stamps,
                                  const std::function<bool(std::size_t)>& same) {
@@ -61,7 +61,8 @@ std::vector<std::size_t> sorted(const std::vector<double>& stamps) {
   constexpr double gap = 3.0;  // usual steps
   int falls = 0;
   for (std::size_t k = 1; k < stamps.size(); ++k) falls += stamps[k] < stamps[k - 1] ? 1 : 0;
-  if (falls < least_falls) return {};
+  if (falls < least_falls || std::ranges::any_of(stamps, [](double one) { return std::isnan(one); }))
+    return {};
   std::vector<std::size_t> rows(stamps.size());
   std::iota(rows.begin(), rows.end(), 0);
   std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return stamps[row]; });
@@ -69,8 +70,8 @@ std::vector<std::size_t> sorted(const std::vector<double>& stamps) {
   for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(stamps[rows[k]] - stamps[rows[k - 1]]);
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::ranges::nth_element(steps, middle);
-  const bool one_record = std::ranges::all_of(
-      steps, [&](double step) { return step > 0.0 && step <= gap * *middle; });  // false of NaN, too
+  const bool one_record =
+      std::ranges::all_of(steps, [&](double step) { return step > 0.0 && step <= gap * *middle; });
   return one_record ? rows : std::vector<std::size_t>{};
 }
 
@@ -116,19 +117,27 @@ bool run_on(std::vector<double>& stamps) {
   std::ranges::nth_element(steps, middle);
   const double step = *middle, start = stamps.front();
   double passed = 0.0, last = std::nan("");
-  for (double& stamp : stamps) {
+  int over = 0, back = 0;  // how often it runs over; falls otherwise
+  std::vector<double> gone_on = stamps;
+  for (double& stamp : gone_on) {
     const double now = stamp;
     if (std::isnan(now)) continue;
-    if (now < last && (passed > 0.0 || now != start))
-      for (const double whole : wholes)
-        if (const double on = now + whole - last; on >= early * step && on <= late * step) {
-          passed += whole;
-          break;
-        }
+    const auto goes_on = [&](double whole) {
+      const double by = now + whole - last;
+      return by >= early * step && by <= late * step;
+    };
+    if (now < last) {
+      const auto* whole = std::ranges::find_if(wholes, goes_on);
+      const bool runs_over = whole != wholes.end() && (passed > 0.0 || now != start);
+      passed += runs_over ? *whole : 0.0;
+      (runs_over ? over : back) += 1;
+    }
     last = now;
     stamp += passed;
   }
-  return passed > 0.0;
+  if (over <= back) return false;  // of rows in no order some look so
+  stamps = std::move(gone_on);
+  return true;
 }
 
 RowOrder order_of_rows(const std::vector<double>& stamps, const std::function<bool(std::size_t)>& same) {

@@ -372,6 +372,12 @@ TEST_F(Asked, ExportsThatKnowNoOrderAreSorted) {
   ASSERT_EQ(found.runs.size(), 1u);
   EXPECT_TRUE(std::ranges::is_sorted(found.tables[0].columns[0].values));
   EXPECT_EQ(start(found), "settled");
+  const Recognised in_ms = of("t_ms,p_bar,x_mm\n", [](int k) {
+    const int n = (k * 77) % 200;
+    return fmt::format("{},{:.3f},{:.3f}", 12 * n, 5 * drive(n), 10 * drive(n));
+  });
+  EXPECT_TRUE(std::ranges::is_sorted(in_ms.tables[0].columns[0].values)) << "no milliseconds of a second";
+  EXPECT_DOUBLE_EQ(in_ms.tables[0].columns[0].values.back(), 12.0 * 199);
 }
 
 }  // namespace
