@@ -1,5 +1,5 @@
-// Every page, wide and narrow, light and dark: axe-core finds nothing, nothing is wider than the screen, and a
-// screenshot is kept in screenshots/.
+// Every page, wide and narrow, light and dark: axe-core finds nothing, nothing is wider than the screen, and
+// a screenshot is kept in screenshots/.
 import assert from 'node:assert/strict';
 import {mkdirSync, readFileSync} from 'node:fs';
 import {after, test} from 'node:test';
@@ -17,7 +17,8 @@ for (const name of ['short', 'replayed', 'gauged', 'campaign', 'map', 'diagnosis
         const {page, close: done} = await open(name, {viewport: {width, height: 900}, colorScheme});
         await page.evaluate(axe);
         const {violations} = await page.evaluate(() => axe.run(document));
-        assert.deepEqual(violations.map((one) => `${one.id}: ${one.nodes[0].html}`), [], `${width} ${colorScheme}`);
+        assert.deepEqual(
+            violations.map((one) => `${one.id}: ${one.nodes[0].html}`), [], `${width} ${colorScheme}`);
         const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
         assert.ok(over <= 0, `${over} px wider than ${width}`);
         await page.screenshot({path: `screenshots/${name}-${width}-${colorScheme}.png`, fullPage: true});
