@@ -135,10 +135,6 @@ bool has_own_clocks(const ColumnMap& map) {
   });
 }
 
-bool same_number(double a, double b) {
-  return a == b || (std::isnan(a) && std::isnan(b));
-}
-
 std::string list_of(const Table& table, const std::vector<std::size_t>& parts,
                     const TableProblems& problems) {
   std::string text;

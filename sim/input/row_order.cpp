@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sim/data/series.hpp>
 #include <sim/input/row_order.hpp>
 
 namespace mckibben::input {
@@ -68,10 +69,9 @@ std::vector<std::size_t> sorted(const std::vector<double>& stamps) {
   std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return stamps[row]; });
   std::vector<double> steps;
   for (std::size_t k = 1; k < rows.size(); ++k) steps.push_back(stamps[rows[k]] - stamps[rows[k - 1]]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
+  const double usual = data::upper_median(steps);
   const bool one_record =
-      std::ranges::all_of(steps, [&](double step) { return step > 0.0 && step <= gap * *middle; });
+      std::ranges::all_of(steps, [&](double step) { return step > 0.0 && step <= gap * usual; });
   return one_record ? rows : std::vector<std::size_t>{};
 }
 
@@ -113,9 +113,7 @@ bool run_on(std::vector<double>& stamps) {
   for (std::size_t k = 1; k < stamps.size(); ++k)
     if (stamps[k] > stamps[k - 1]) steps.push_back(stamps[k] - stamps[k - 1]);
   if (steps.empty()) return false;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  const double step = *middle, start = stamps.front();
+  const double step = data::upper_median(std::move(steps)), start = stamps.front();
   double passed = 0.0, last = std::nan("");
   int over = 0, back = 0;  // how often it runs over; falls otherwise
   std::vector<double> gone_on = stamps;
@@ -138,6 +136,10 @@ bool run_on(std::vector<double>& stamps) {
   if (over <= back) return false;  // of rows in no order some look so
   stamps = std::move(gone_on);
   return true;
+}
+
+bool same_number(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
 }
 
 RowOrder order_of_rows(const std::vector<double>& stamps, const std::function<bool(std::size_t)>& same) {

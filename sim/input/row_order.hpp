@@ -13,6 +13,9 @@ namespace mckibben::input {
 /// recorder that begins anew does so where it began before. In the units of the file; false: none did.
 bool run_on(std::vector<double>& stamps);
 
+/// Also where both cells hold none.
+bool same_number(double a, double b);
+
 struct RowOrder {
   std::vector<std::size_t> rows;  ///< that are read, in this order
   std::string note;               ///< what was done; empty: nothing

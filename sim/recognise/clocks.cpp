@@ -236,8 +236,7 @@ void put_in_order(UnknownTable& table) {
   if (stamps == nullptr || !time.clocks.empty()) return;
   const auto same = [&](std::size_t row) {
     const auto repeats = [&](const UnknownColumn& column) {
-      const double now = column.values[row], before = column.values[row - 1];
-      return &column == stamps || now == before || (std::isnan(now) && std::isnan(before));
+      return &column == stamps || input::same_number(column.values[row], column.values[row - 1]);
     };
     return std::ranges::all_of(table.columns, repeats) && std::ranges::all_of(table.texts, repeats);
   };

@@ -239,6 +239,19 @@ const Values* column_of(const UnknownTable& table, const std::string& name) {
   return found == table.columns.end() ? nullptr : &found->values;
 }
 
+std::optional<Readings> readings_of(const std::vector<const UnknownTable*>& tables,
+                                    const std::string& column) {
+  Readings all;
+  for (const UnknownTable* table : tables) {
+    const Values* values = column_of(*table, column);
+    if (values == nullptr) return std::nullopt;
+    all.values.push_back(values);
+    const Range own = range_of(*values);
+    all.range = {std::min(all.range.low, own.low), std::max(all.range.high, own.high)};
+  }
+  return all;
+}
+
 const ColumnGuess* drive_of(const MapGuess& map) {
   for (const char* key : {"current", "command", "muscle_pressure"})
     if (const ColumnGuess* guess = map.find(key); guess != nullptr && !guess->column.open()) return guess;
@@ -283,19 +296,13 @@ void doubt_pressures(MapGuess& map, const std::vector<const UnknownTable*>& tabl
   const ColumnGuess* drive = drive_of(map);
   for (ColumnGuess& guess : map.columns) {
     if (guess.quantity->key != "muscle_pressure" || guess.column.open() || drive == nullptr) continue;
-    std::vector<const Values*> drives, readings;
-    Range range{1e300, -1e300}, driven = range;
-    for (const UnknownTable* table : tables) {
-      drives.push_back(column_of(*table, drive->column.value));
-      readings.push_back(column_of(*table, guess.column.value));
-      if (drives.back() == nullptr || readings.back() == nullptr) return;
-      const Range own = range_of(*readings.back()), other = range_of(*drives.back());
-      range = {std::min(range.low, own.low), std::max(range.high, own.high)};
-      driven = {std::min(driven.low, other.low), std::max(driven.high, other.high)};
-    }
-    const bool changes = driven.high > driven.low,
+    const auto drives = readings_of(tables, drive->column.value),
+               readings = readings_of(tables, guess.column.value);
+    if (!drives || !readings) return;
+    const Range& range = readings->range;
+    const bool changes = drives->range.high > drives->range.low,
                steady = range.high - range.low < stays_within * std::abs(range.high);
-    const double correlation = together(drives, readings).correlation;
+    const double correlation = together(drives->values, readings->values).correlation;
     if (drive == &guess && range.high - range.low < changes_by * std::abs(range.high))
       guess.column =
           left_open(fmt::format("{} changes by {:.2g} of {:.4g} only: is it the muscle's, or a supply's?",

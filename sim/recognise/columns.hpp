@@ -72,6 +72,15 @@ struct Range {
 };
 Range range_of(const Values& values);
 
+/// A column as all tables of a map hold it.
+struct Readings {
+  std::vector<const Values*> values{};
+  Range range{1e300, -1e300};
+};
+/// None if a table has no such column.
+std::optional<Readings> readings_of(const std::vector<const UnknownTable*>& tables,
+                                    const std::string& column);
+
 /// How a reading goes along with what drives it, over all tables: correlation from -1 to 1.
 struct Together {
   double correlation = 0.0;

@@ -65,12 +65,9 @@ std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess&
 bool reads_nothing(const ColumnGuess& gauge, const std::vector<const UnknownTable*>& tables) {
   constexpr double nothing = 0.02;  // of its range
   if (gauge.column.open() || gauge.unit.open() || (gauge.zero && gauge.zero->open())) return false;
-  Range range{1e300, -1e300};
-  for (const UnknownTable* table : tables)
-    if (const Values* values = column_of(*table, gauge.column.value)) {
-      const Range own = range_of(*values);
-      range = {std::min(range.low, own.low), std::max(range.high, own.high)};
-    }
+  const auto readings = readings_of(tables, gauge.column.value);
+  if (!readings) return false;
+  const Range& range = readings->range;
   const double zero = gauge.zero ? input::parse_number(gauge.zero->value).value_or(0.0) : 0.0;
   return std::abs(range.low - zero) < nothing * (range.high - range.low);
 }
@@ -80,17 +77,11 @@ bool reads_nothing(const ColumnGuess& gauge, const std::vector<const UnknownTabl
 void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const ColumnGuess* gauge,
                    const std::vector<const UnknownTable*>& tables, const Heading& heading,
                    const KnownRig& rig) {
-  std::vector<const Values*> drives, readings;
-  Range range{1e300, -1e300}, driven = range;
-  for (const UnknownTable* table : tables) {
-    drives.push_back(column_of(*table, drive.column.value));
-    readings.push_back(column_of(*table, contraction.column.value));
-    if (drives.back() == nullptr || readings.back() == nullptr) return;
-    const Range own = range_of(*readings.back()), of_drive = range_of(*drives.back());
-    range = {std::min(range.low, own.low), std::max(range.high, own.high)};
-    driven.low = std::min(driven.low, of_drive.low);
-  }
-  const Together found = together(drives, readings);
+  const auto drives = readings_of(tables, drive.column.value),
+             readings = readings_of(tables, contraction.column.value);
+  if (!drives || !readings) return;
+  const Range& range = readings->range;
+  const Together found = together(drives->values, readings->values);
   const std::string along = fmt::format("correlation with {} {:.2f}", drive.column.value, found.correlation);
   const bool scale_is_open = contraction.unit.open() || (contraction.factor && contraction.factor->open());
   if (std::abs(found.correlation) < least_correlation) {
@@ -112,7 +103,7 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
     contraction.factor = Told{"-1", "it falls as the muscle contracts, " + along};
   const double at_rest = falls ? range.high : range.low;
   if (!scale_is_open)
-    contraction.zero = zero_told(contraction, drive, found, range, driven.low, heading.is_length,
+    contraction.zero = zero_told(contraction, drive, found, range, drives->range.low, heading.is_length,
                                  gauge != nullptr && reads_nothing(*gauge, tables), rig);
   else if (std::abs(at_rest) > near_rest_share * (range.high - range.low))
     contraction.zero = left_open(
