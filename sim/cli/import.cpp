@@ -87,7 +87,7 @@ int import_tables(const ImportOptions& options) {
   recognise::KnownRig known;
   if (!options.rig.empty()) {
     const plant::Rig rig = input::read_rig(options.rig, read);
-    known = {rig.tick_s, rig.muscle.rest_length_m, rig.holds_a_length()};
+    known = {rig.tick_s, rig.muscle.rest_length_m, rig.holds_a_length(), plant::name_of(rig.command_unit())};
   }
   const auto found = recognise::recognise(tables_of(options.files), !options.rig.empty(), known);
   for (const auto& table : found.tables) read.push_back(table.input);
@@ -96,10 +96,9 @@ int import_tables(const ImportOptions& options) {
   Job job(options, words, name_of(options.files), read);
   const fs::path folder = output::result_path(job.where());
   const std::string document = output::json_of(found), table = output::table_of(found, job.where().string());
-  job.write(
-      "dataset.yaml",
-      output::dataset_yaml(found, folder, options.rig.empty() ? "rig.yaml" : rig_from(folder, options.rig)));
-  if (options.rig.empty()) job.write("rig.yaml", output::rig_yaml(found));
+  const std::string base = options.rig.empty() ? "thesis" : rig_from(folder, options.rig);
+  job.write("dataset.yaml", output::dataset_yaml(found, folder, found.rig.empty() ? base : "rig.yaml"));
+  if (!found.rig.empty()) job.write("rig.yaml", output::rig_yaml(found, base));
   job.write("understood.svg", output::picture_of(found));
   job.write("import.json", document);
   job.write("table.txt", table);

@@ -52,8 +52,9 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known) {
-  std::vector<std::string_view> meant =
-      word.size() > longest_word ? std::vector<std::string_view>{} : names_here(word);
+  std::vector<std::string_view> meant;
+  if (const Synonym* term = word.size() > longest_word ? nullptr : synonym(word))
+    meant.assign(term->names.begin(), term->names.end());
   std::erase_if(meant, [&](std::string_view name) { return std::ranges::find(known, name) == known.end(); });
   if (!meant.empty()) return fmt::format("; did you mean {}?", fmt::join(meant, " or "));
   const auto best = nearest(word, known);

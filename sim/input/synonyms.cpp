@@ -1,63 +1,38 @@
-// The field's terms; see the header.
+// Reads the page of terms; see the header.
+#include <algorithm>
 #include <cctype>
+#include <ranges>
+#include <regex>
 
 #include <sim/input/synonyms.hpp>
 
 namespace mckibben::input {
 namespace {
 
-constexpr Synonym terms_of_the_field[] = {
-    {"leak", "muscle_leak"},
-    {"leakage", "muscle_leak"},
-    {"hysteresis", "bladder_hysteresis"},
-    {"hysteresis", "valve_hysteresis"},
-    {"preisach", "bladder_hysteresis"},
-    {"prandtl_ishlinskii", "bladder_hysteresis"},
-    {"maxwell_slip", "bladder_hysteresis"},
-    {"bouc_wen", "bladder_hysteresis"},
-    {"dahl", "bladder_hysteresis"},
-    {"creep", "bladder_creep"},
-    {"viscoelasticity", "bladder_creep"},
-    {"relaxation", "bladder_creep"},
-    {"coulomb", "guide_friction"},
-    {"dry_friction", "guide_friction"},
-    {"stribeck", "speed_dependent_friction"},
-    {"viscous", "viscous_damping"},
-    {"viscous_friction", "viscous_damping"},
-    {"damping", "viscous_damping"},
-    {"spring", "bladder_elasticity"},
-    {"stiffness", "bladder_elasticity"},
-    {"rubber", "bladder_elasticity"},
-    {"deadband", "valve_dead_band"},
-    {"dead_band", "valve_dead_band"},
-    {"dead_zone", "valve_dead_band"},
-    {"backlash", "encoder_backlash"},
-    {"dead_time", "command_delay"},
-    {"dead_time", "reading_delay"},
-    {"delay", "command_delay"},
-    {"delay", "reading_delay"},
-    {"latency", "command_delay"},
-    {"latency", "reading_delay"},
-    {"lag", "valve_lag"},
-    {"bandwidth", "valve_lag"},
-    {"adiabatic", "polytropic_gas"},
-    {"isothermal", "gas_temperature"},
-    {"drift", "friction_warm_up"},
-    {"scale_error", "encoder_scale"},
-    {"threshold_pressure", "pressure_threshold"},
-    {"end_effect", "end_cap_correction"},
-    {"feedforward", "feedforward_pid"},
-    {"mpc", "model_inverse_feedback"},
-    {"imc", "model_inverse_feedback"},
-    {"smith_predictor", "model_inverse_feedback"},
-    {"lqr", "external"},
-    {"lqr", "plugin"},
-};
+std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
+  return {std::sregex_token_iterator(text.begin(), text.end(), pattern, 1), std::sregex_token_iterator()};
+}
+
+std::vector<Synonym> read(std::string_view page) {
+  static const std::regex row(R"(\| (.+) \| (.+) \|)"), link(R"(\[([^\]]*)\]\([^)]*\))"),
+      term(" *([^,:]+)[,:]?"), name("`([^`]+)`");
+  std::vector<Synonym> list;
+  for (const auto part : std::views::split(page, '\n')) {
+    const std::string line(part.begin(), part.end());
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row) || cells[2] == "here") continue;  // a heading
+    const std::string here = std::regex_replace(cells[2].str(), link, "$1");
+    for (const std::string& word : matches(cells[1], term))
+      list.push_back({spelled_alike(word), here, matches(here, name)});
+  }
+  return list;
+}
 
 }  // namespace
 
-std::span<const Synonym> synonyms() {
-  return terms_of_the_field;
+const std::vector<Synonym>& synonyms() {
+  static const std::vector<Synonym> list = read(your_words);
+  return list;
 }
 
 std::string spelled_alike(std::string_view word) {
@@ -67,12 +42,10 @@ std::string spelled_alike(std::string_view word) {
   return text;
 }
 
-std::vector<std::string_view> names_here(std::string_view term) {
-  const std::string wanted = spelled_alike(term);
-  std::vector<std::string_view> names;
-  for (const Synonym& one : terms_of_the_field)
-    if (one.term == wanted) names.push_back(one.here);
-  return names;
+const Synonym* synonym(std::string_view term) {
+  const auto& list = synonyms();
+  const auto found = std::ranges::find(list, spelled_alike(term), &Synonym::term);
+  return found == list.end() ? nullptr : &*found;
 }
 
 }  // namespace mckibben::input

@@ -43,7 +43,7 @@ std::string added(const Diagnosis& diagnosis) {
     for (const auto& parameter : effect.parameters) add(full_name(effect), parameter.name, parameter);
   for (const auto& effect : diagnosis.stand_ins)
     for (const auto& parameter : effect.parameters)
-      add(full_name(effect) + ", stands in", parameter.name, parameter);
+      add(full_name(effect) + " (fits, no finding)", parameter.name, parameter);
   for (const auto& term : diagnosis.residual_law) {
     add("residual_law", term.term, term.coefficient);
     for (const auto& shape : term.shape) add("", shape.name, shape);

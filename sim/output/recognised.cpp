@@ -105,12 +105,12 @@ std::string dataset_yaml(const Recognised& found, const std::filesystem::path& f
   return text;
 }
 
-std::string rig_yaml(const Recognised& found) {
+std::string rig_yaml(const Recognised& found, const std::string& base) {
   std::string text = fmt::format(
       "# The rig as far as its tables say, written by `mckibben import`.\n{}"
       "# What is not said here is the base's: mckibben schema rig --format yaml shows every value.\n"
-      "schema: {}\nbase: thesis\n",
-      how_to_go_on, input::rig_schema);
+      "schema: {}\nbase: {}\n",
+      how_to_go_on, input::rig_schema, base);
   std::string section, sensor;
   for (const Setting& each : found.rig) {
     const std::size_t dot = each.key.find('.');

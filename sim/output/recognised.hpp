@@ -13,7 +13,8 @@ namespace mckibben::output {
 /// names it.
 std::string dataset_yaml(const recognise::Recognised& found, const std::filesystem::path& folder,
                          const std::string& rig);
-std::string rig_yaml(const recognise::Recognised& found);
+/// `base`: the rig that it starts from, as a file in the same folder names it.
+std::string rig_yaml(const recognise::Recognised& found, const std::string& base);
 
 /// `where`: the folder, as the user knows it.
 std::string table_of(const recognise::Recognised& found, const std::string& where);

@@ -73,7 +73,10 @@ class Recogniser {
     clocks();
     gaps();
     start();
-    if (!rig_is_known) rig();
+    if (!rig_is_known)
+      rig();
+    else if (is_commanded_otherwise())
+      valve();
   }
 
  private:
@@ -288,6 +291,14 @@ class Recogniser {
     else if (step_s_ > 0.0)
       set("tick",
           {fmt::format("{:.6g} ms", 1e3 * std::clamp(step_s_, shortest_tick_s, longest_tick_s)), clock_});
+  }
+
+  /// Whether the commands' unit is none of the known rig's valve.
+  bool is_commanded_otherwise() const {
+    const ColumnGuess* command = drive_of(first_map());
+    return command != nullptr && command->quantity->key != "muscle_pressure" && !command->unit.open() &&
+           !known_.command_unit.empty() &&
+           !input::unit_problem(command->unit.value, known_.command_unit).empty();
   }
 
   /// Time between rows that have no stamps.

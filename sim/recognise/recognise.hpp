@@ -66,13 +66,15 @@ struct Recognised {
   std::size_t open() const;
 };
 
-/// What a rig that is known tells of its tables; 0: nothing does.
+/// What a rig that is known tells of its tables; 0 or empty: nothing does.
 struct KnownRig {
   double tick_s = 0.0, rest_length_m = 0.0;
   bool holds_a_length = false;
+  std::string_view command_unit{};
 };
 
-/// Reads and understands. `rig_is_known`: nothing is to be said of it. Throws MissingInput, BadInput.
+/// Reads and understands. `rig_is_known`: nothing is said of it but the range of commands that are in another
+/// unit than its valve's. Throws MissingInput, BadInput.
 Recognised recognise(const std::vector<std::filesystem::path>& files, bool rig_is_known,
                      const KnownRig& rig = {});
 

@@ -42,7 +42,7 @@ std::string found(const Diagnosis& diagnosis) {
       rows += found_row(full_name(effect), parameter.name, parameter);
   for (const auto& effect : diagnosis.stand_ins)
     for (const auto& parameter : effect.parameters)
-      rows += found_row(full_name(effect) + ", stands in", parameter.name, parameter);
+      rows += found_row(full_name(effect) + " (fits, no finding)", parameter.name, parameter);
   for (const auto& term : diagnosis.residual_law)
     rows += found_row("residual_law", term.term, term.coefficient);
   if (rows.empty())

@@ -104,8 +104,10 @@ std::vector<Gap> gaps_of(const domain::Run& run, const plant::Rig& rig, const Re
     double squares = 0.0, sum = 0.0;
     for (std::size_t k = 0; k < recording.samples.size(); ++k) {
       if (recording.samples[k].time_s - recording.samples.front().time_s < skip_s) continue;
-      const double error = one.simulated(k) - one.measured(k);
+      const double measured = one.measured(k), error = one.simulated(k) - measured;
       if (std::isnan(error)) continue;
+      gap.low = std::min(gap.low, measured);
+      gap.high = std::max(gap.high, measured);
       ++gap.rows;
       squares += error * error;
       sum += error;

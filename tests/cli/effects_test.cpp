@@ -97,16 +97,24 @@ TEST_F(EffectsVerb, TellsOneByItsName) {
 }
 
 TEST_F(EffectsVerb, TakesTermsOfTheField) {
-  EXPECT_EQ(run("effects Hysteresis").out, run("effects bladder_hysteresis valve_hysteresis").out);
+  EXPECT_EQ(run("effects Preisach").out, run("effects bladder_hysteresis").out);
   EXPECT_EQ(run("effects 'dead zone'").out, run("effects valve_dead_band").out);
 }
 
-TEST_F(EffectsVerb, ItsPageOfTermsHasEachOfThem) {
-  const std::string page = input::spelled_alike(read_text(MCKIBBEN_SOURCE_DIR "/docs/your_words.md"));
-  const std::string known = run("effects").out + read_text(MCKIBBEN_SOURCE_DIR "/docs/scenarios.md");
+TEST_F(EffectsVerb, SaysWhatATermIsThatIsNoEffect) {
+  const auto said = run("effects 'Smith predictor'");
+  EXPECT_EQ(said.status, 64);
+  EXPECT_TRUE(
+      holds(said.err, "Smith predictor is not an effect; here: model_inverse_feedback", "your_words.md"));
+  EXPECT_TRUE(holds(run("effects hysterisis").err, "unknown effect hysterisis; did you mean hysteresis?"));
+}
+
+TEST_F(EffectsVerb, KnowsEachTermOfItsPage) {
+  ASSERT_GT(input::synonyms().size(), 80u);
   for (const input::Synonym& one : input::synonyms()) {
-    EXPECT_TRUE(holds(page, std::string(one.term), std::string(one.here) + "`"));
-    EXPECT_TRUE(holds(known, std::string(one.here)));
+    const auto said = run("effects '" + one.term + "'");
+    EXPECT_TRUE(holds(said.out + said.err, one.names.empty() ? one.here : one.names.front()));
+    EXPECT_TRUE(lacks(said.err, "unknown effect"));
   }
 }
 

@@ -2,6 +2,8 @@
 // nothing that was edited is lost.
 #include <regex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +26,15 @@ constexpr const char* record =
     "\"sep=;\\nZeit;Soll;Laser;\\n"
     "ms;V;mm;\"} NR > 1 {s = sprintf(\"%.1f;%.4f;%.4f;\", $1 * 1000, ($2 - 4) / 1.6, 412.5 - $3 * 180); "
     "gsub(/\\./, \",\", s); print s}' d/m1_s.csv > bench/load_5kg.csv";
+
+/// Writes values in place of FILL_IN.
+void write_filled(const std::filesystem::path& file,
+                  const std::vector<std::pair<std::string, std::string>>& values) {
+  std::string text = read_text(file);
+  for (const auto& [key, value] : values)
+    text = std::regex_replace(text, std::regex(key + ": FILL_IN"), key + ": " + value);
+  write_text(file, text);
+}
 
 class Import : public ::testing::Test {
  protected:
@@ -71,23 +82,19 @@ TEST_F(Import, WhatIsOpenIsRefusedAndThenReplays) {
   EXPECT_EQ(refused.status, 65);
   EXPECT_TRUE(holds(refused.err, "rest_length = FILL_IN: the recorded data do not contain it"));
 
-  std::string rig = read_text(scratch_ / "mine/rig.yaml");
-  for (const auto& [key, value] : {std::pair{"rest_length", "180 mm"},
-                                   {"rest_radius", "6 mm"},
-                                   {"braid_angle", "23 deg"},
-                                   {"kind", "servo"},
-                                   {"zero_pressure", "0 bar"},
-                                   {"span_pressure", "6 bar"},
-                                   {"supply_pressure", "7 bar"}})
-    rig =
-        std::regex_replace(rig, std::regex(std::string(key) + ": FILL_IN"), std::string(key) + ": " + value);
-  write_text(scratch_ / "mine/rig.yaml", rig);
+  write_filled(scratch_ / "mine/rig.yaml", {{"rest_length", "180 mm"},
+                                            {"rest_radius", "6 mm"},
+                                            {"braid_angle", "23 deg"},
+                                            {"kind", "servo"},
+                                            {"zero_pressure", "0 bar"},
+                                            {"span_pressure", "6 bar"},
+                                            {"supply_pressure", "7 bar"}});
+  const std::string rig = read_text(scratch_ / "mine/rig.yaml");
   const std::string dataset = read_text(scratch_ / "mine/dataset.yaml");
   const std::regex named(R"(; ([0-9.]+) is its median where [^\n]*\n.*zero: FILL_IN)");
   std::smatch found;
   ASSERT_TRUE(std::regex_search(dataset, found, named)) << dataset;
-  write_text(scratch_ / "mine/dataset.yaml",
-             std::regex_replace(dataset, std::regex("zero: FILL_IN"), "zero: " + found.str(1)));
+  write_filled(scratch_ / "mine/dataset.yaml", {{"zero", found.str(1)}});
   EXPECT_EQ(mckibben("check mine", scratch_).err, "next: mckibben replay mine\n");
   const Said replayed = mckibben("replay mine --json", scratch_);
   ASSERT_EQ(replayed.status, 0) << replayed.err;
@@ -133,13 +140,15 @@ TEST_F(Import, TakesARigThatIsKnownAndLeavesTablesAlone) {
   ASSERT_EQ(said.status, 0) << said.err;
   const auto document = input::Json::parse(said.out);
   EXPECT_EQ(document.at("schema"), "mckibben-import/1");
-  EXPECT_EQ(document.at("open"), 1) << "the zero";
-  EXPECT_FALSE(std::filesystem::exists(scratch_ / "sub/mine/rig.yaml"));
-  const std::string dataset = read_text(scratch_ / "sub/mine/dataset.yaml");
-  write_text(scratch_ / "sub/mine/dataset.yaml",
-             std::regex_replace(dataset, std::regex("zero: FILL_IN"), "zero: 412"));
-  const Said checked = mckibben("check sub/mine", scratch_);
-  EXPECT_TRUE(holds(checked.err, "the rig's valve is commanded with a current"));
+  EXPECT_EQ(document.at("open"), 5) << "the zero, and a valve in V";
+  write_filled(scratch_ / "sub/mine/dataset.yaml", {{"zero", "412.5"}});
+  write_filled(scratch_ / "sub/mine/rig.yaml", {{"kind", "servo"},
+                                                {"zero_pressure", "0 bar"},
+                                                {"span_pressure", "6 bar"},
+                                                {"supply_pressure", "7 bar"}});
+  EXPECT_EQ(mckibben("check sub/mine", scratch_).err, "next: mckibben replay sub/mine\n");
+  const auto replayed = input::Json::parse(mckibben("replay sub/mine --json", scratch_).out);
+  EXPECT_LT(replayed.at("runs").at(0).at("gaps").at(0).at("rmse").get<double>(), 1e-3);
 
   EXPECT_EQ(mckibben("import bench/load_5kg.csv --out bench", scratch_).status, 74) << "tables are there";
   EXPECT_EQ(mckibben("import bench/none.csv", scratch_).status, 66);
