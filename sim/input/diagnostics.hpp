@@ -49,7 +49,8 @@ class BadInput : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// Collects the findings of one reading, over all files it touches, and which files those are.
+/// Collects the findings of one reading, over all files it touches, and which files those are. What is found
+/// twice, such as for each of many runs, is kept once.
 class Problems {
  public:
   void opened(const Source& source) { inputs_.push_back({source.name(), source.sha256()}); }

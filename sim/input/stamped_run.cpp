@@ -24,10 +24,10 @@ constexpr long least_to_begin = 10;  // readings, for place, speed and accelerat
 std::string unit_of_command_problem(const ColumnPlace& command, const plant::Valve& valve) {
   const std::string_view wanted = name_of(valve.command_unit);
   if (unit_problem(command.unit, wanted).empty()) return "";
-  return fmt::format("unit = {}: the rig's valve is commanded {}", command.unit,
-                     valve.command_unit == plant::CommandUnit::mA
-                         ? "with a current; if it is not, set zero_command and span_command"
-                         : fmt::format("in {}", wanted));
+  return fmt::format(
+      "unit = {0}: the rig's valve is commanded in {1}; of another valve, write into the rig file "
+      "valve: {{zero_command: 0 {0}, span_command: ... {0}}}",
+      command.unit, wanted);
 }
 
 /// Whether the column must be there: what drives the rig must.

@@ -43,9 +43,17 @@ TEST(Diagnostics, AllErrorsInOrderAndWarningsDoNotThrow) {
 TEST(Diagnostics, OfVeryManyTheFirstHundredAndTheNumberOfTheRest) {
   const Source source("a.yaml", "one\n", "");
   Problems problems;
-  for (int i = 0; i < 130; ++i) problems.error(source, {1, 1}, "bad");
+  for (int i = 0; i < 130; ++i) problems.error(source, {1, 1}, std::to_string(i));
   ASSERT_EQ(problems.sorted().size(), 101u);
   EXPECT_EQ(problems.sorted().back().message, "and 30 more problems");
+}
+
+TEST(Diagnostics, WhatManyRunsShareIsSaidOnce) {
+  const Source source("a.yaml", "one\n", "");
+  Problems problems;
+  for (int i = 0; i < 3; ++i) problems.error(source, {1, 1}, "bad");
+  EXPECT_EQ(problems.errors(), 3u);
+  EXPECT_EQ(problems.sorted().size(), 1u);
 }
 
 TEST(Diagnostics, WhatAFileHoldsDoesNothingToATerminal) {
