@@ -31,12 +31,10 @@ struct LineariseOptions : Options {
 
 /// A rig, with what is to control it.
 struct LinearTask {
-  std::string name;
-  plant::Rig rig;
+  output::Linearised all;
   std::vector<double> loads_kg;
   double hand_m = domain::Hand{}.distance_m;
   std::vector<controllers::Settings> controllers;
-  std::vector<domain::InputFile> files;
 };
 
 [[noreturn]] void refuse(const std::string& file, const std::string& why) {
@@ -54,7 +52,8 @@ bool is_scenario(const std::string& file) {
 
 /// With gains for all PIDs: those left open are tuned, as `run` tunes them.
 LinearTask task_of(const domain::Scenario& scenario, unsigned threads) {
-  LinearTask task{scenario.name, scenario.rig, scenario.loads_kg, scenario.hand_m, {}, scenario.inputs};
+  LinearTask task{{scenario.name, scenario.rig, {}, {}}, scenario.loads_kg, scenario.hand_m, {}};
+  task.all.files = scenario.inputs;
   run::Briefing briefing = run::briefing_of(scenario);
   std::vector<controllers::Settings*> open;
   for (auto& settings : briefing.settings)
@@ -66,13 +65,17 @@ LinearTask task_of(const domain::Scenario& scenario, unsigned threads) {
       hook("tuning PID", 0, open.size());
       return run::tune_controllers(scenario, briefing, open, threads, [] {});
     });
-    for (const auto& each : tuned)
-      if (!each.failure.empty()) say(fmt::format("{}: {}", each.controller, each.failure));
+    for (std::size_t i = 0; i < tuned.size(); ++i)
+      if (const auto& [name, why] = std::tie(tuned[i].controller, tuned[i].failure); !why.empty())
+        say(fmt::format("{}: {}", name, why));
+      else
+        task.all.tuned.push_back({name, *controllers::part_of<controllers::PidForm>(*open[i])});
   }
-  for (const auto& settings : briefing.settings) {
-    const auto* terms = controllers::part_of<controllers::PidForm>(settings);
-    if (terms == nullptr || !terms->needs_tuning()) task.controllers.push_back(settings);
-  }
+  for (const auto& settings : briefing.settings)
+    if (!linear::is_linear(settings))
+      task.all.not_linear.push_back(controllers::name_of(settings));
+    else if (!controllers::part_of<controllers::PidForm>(settings)->needs_tuning())
+      task.controllers.push_back(settings);
   return task;
 }
 
@@ -84,9 +87,9 @@ LinearTask read_task(const LineariseOptions& options) {
     return task_of(scenario, options.threads);
   }
   LinearTask task;
-  task.rig = input::read_rig(options.file, task.files);
-  task.name = input::made_file_safe(std::filesystem::path(options.file).stem().string());
-  task.loads_kg = {task.rig.pair() ? 0.0 : input::usual_load_kg(task.rig)};
+  task.all.rig = input::read_rig(options.file, task.all.files);
+  task.all.name = input::made_file_safe(std::filesystem::path(options.file).stem().string());
+  task.loads_kg = {task.all.rig.pair() ? 0.0 : input::usual_load_kg(task.all.rig)};
   return task;
 }
 
@@ -135,30 +138,26 @@ linear::Question question_of(const LineariseOptions& options, const plant::Rig& 
 }
 
 plant::Rig loaded(const LinearTask& task, double load_kg) {
-  plant::Rig rig = task.rig;
+  plant::Rig rig = task.all.rig;
   if (plant::Pair* pair = rig.pair()) *pair = plant::with_load_in_hand(*pair, load_kg, task.hand_m);
   return rig;
 }
 
 int linearise(const LineariseOptions& options) {
   LinearTask task = read_task(options);
-  if (!task.rig.has_angle()) input::require_load(task.rig, options.file, "linearise");
+  output::Linearised& all = task.all;
+  if (!all.rig.has_angle()) input::require_load(all.rig, options.file, "linearise");
   if (!options.loads_kg.empty()) task.loads_kg = options.loads_kg;
-  output::Linearised all{task.name, task.rig, {}, {}};
-  all.files = task.files;
   try {
-    all.question = question_of(options, task.rig);
+    all.question = question_of(options, all.rig);
   } catch (const CLI::ValidationError& wrong) {
     say(wrong.what());
     return usage_error;
   }
-  for (const auto& each : task.controllers)
-    if (!linear::is_linear(each)) all.not_linear.push_back(controllers::name_of(each));
-  const std::string name = task.name + "-linearise";
-  Job job(options, "linearise " + options.file, name, task.files);
+  Job job(options, "linearise " + options.file, all.name + "-linearise", all.files);
   for (const double load_kg : task.loads_kg)
     for (const linear::Place& place : all.question.places) {
-      if (const std::string why = task.rig.pair() ? "" : input::too_heavy(load_kg, task.rig); !why.empty())
+      if (const std::string why = all.rig.pair() ? "" : input::too_heavy(load_kg, all.rig); !why.empty())
         refuse(options.file, fmt::format("{:g} kg: {}", load_kg, why));
       try {
         all.studies.push_back(

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <sim/linear/loop.hpp>
 
@@ -19,11 +20,6 @@ double crossing(const Function& f, double low, double high) {
     ((f(middle) > 0.0) == above ? low : high) = middle;
   }
   return std::sqrt(low * high);
-}
-
-/// Ti = 4 Td
-controllers::PidForm four_to_one(double K, double Td_s) {
-  return pid_of({K, 4.0 * Td_s, Td_s});
 }
 
 }  // namespace
@@ -81,10 +77,12 @@ Margins margins_of(const System& loop) {
     if (factor < 1.0 && factor > margins.shrunk_gain.value_or(0.0)) margins.shrunk_gain = factor;
   };
   const std::vector<double> grid = frequencies(loop.step_s, 800);
+  Complex now = response(loop, grid.front());
   for (std::size_t i = 1; i < grid.size(); ++i) {
     const double low = grid[i - 1], high = grid[i];
-    if ((imaginary(low) > 0.0) != (imaginary(high) > 0.0)) at_half_turn(crossing(imaginary, low, high));
-    if ((excess(low) > 0.0) == (excess(high) > 0.0)) continue;
+    const Complex before = std::exchange(now, response(loop, high));
+    if ((before.imag() > 0.0) != (now.imag() > 0.0)) at_half_turn(crossing(imaginary, low, high));
+    if ((std::abs(before) > 1.0) == (std::abs(now) > 1.0)) continue;
     const double w = crossing(excess, low, high),
                  left = std::remainder(std::arg(response(loop, w)) + pi, 2.0 * pi);
     if (margins.phase_rad && std::abs(*margins.phase_rad) <= std::abs(left)) continue;
@@ -108,33 +106,33 @@ double calmed_m_per_s(const Point& point, const controllers::PidForm& pid, doubl
   return low;
 }
 
-std::optional<run::Gains> pid_by_margins(const Point& point, double tick_s, const Wanted& wanted) {
+std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, const Wanted& wanted) {
+  constexpr double rounding = 1e-9, close = 1e-6;
   System plant = sampled(point.system(), tick_s, point.delay_s());
   plant.C *= point.shown;
-  std::optional<run::Gains> best;
-  const auto consider = [&](double w, const Complex& of_plant, double phase_rad) {
-    const auto with = [&](double Td_s) {
-      return response(system_of(four_to_one(1.0, Td_s), tick_s), w) * of_plant;
+  const double slightest = 1e-3 / std::abs(gain_at_rest(plant)), strongest = 1e6 * slightest;
+  std::optional<PidByMargins> best;
+  for (const double w : frequencies(tick_s, 100)) {
+    const double Td_s = 1.0 / w, Ti_s = 4.0 * Td_s;
+    const auto with = [&](double K) {
+      return margins_of(in_series(system_of(pid_of({K, Ti_s, Td_s}), tick_s), plant));
     };
-    const auto lacks = [&](double Td_s) {
-      return std::remainder(std::arg(with(Td_s)) + pi - phase_rad, 2.0 * pi);
+    const auto keeps_phase = [&](double K) {
+      const Margins has = with(K);
+      return has.stable && has.phase_rad.value_or(pi) >= wanted.phase_rad;
     };
-    const double shortest_s = 0.02 / w, longest_s = 3.0 / w;
-    if (lacks(shortest_s) > 0.0 || lacks(longest_s) < 0.0) return;
-    const double Td_s = crossing(lacks, shortest_s, longest_s), K = 1.0 / std::abs(with(Td_s));
-    if (best && K / (4.0 * Td_s) <= best->proportional_mA / best->integral_time_s) return;
-    const Margins has = margins_of(in_series(system_of(four_to_one(K, Td_s), tick_s), plant));
-    constexpr double rounding = 1e-6;
-    if (has.stable && has.phase_rad && *has.phase_rad >= wanted.phase_rad - rounding &&
-        has.gain.value_or(1e300) >= wanted.gain)
-      best = run::Gains{K, 4.0 * Td_s, Td_s};
-  };
-  constexpr double step_rad = 0.1;
-  for (const double w : frequencies(tick_s, 150)) {
-    if (w > 0.5 * pi / tick_s) break;
-    const Complex of_plant = response(plant, w);
-    for (double phase_rad = wanted.phase_rad; phase_rad < 1.7; phase_rad += step_rad)
-      consider(w, of_plant, phase_rad);
+    const Margins first = with(slightest);
+    double high = first.gain ? slightest * *first.gain / wanted.gain * (1.0 - rounding) : strongest,
+           low = best ? best->gains.proportional_mA / best->gains.integral_time_s * Ti_s : slightest;
+    if (!first.stable || high <= low) continue;  // low: no better than the best
+    const bool gain_binds = keeps_phase(high);
+    if (gain_binds) low = high;
+    if (!gain_binds && !keeps_phase(low)) continue;
+    while (high > low * (1.0 + close)) {
+      const double middle = std::sqrt(low * high);
+      (keeps_phase(middle) ? low : high) = middle;
+    }
+    best = {{low, Ti_s, Td_s}, gain_binds};
   }
   return best;
 }

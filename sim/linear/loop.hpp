@@ -40,9 +40,13 @@ struct Wanted {
   double phase_rad = 0.0;
   double gain = 2.0;
 };
+struct PidByMargins {
+  run::Gains gains;
+  bool gain_binds = false;  ///< more gain would cost the gain margin, not the phase margin
+};
 /// Of the PIDs with Ti = 4 Td that keep the margins, the one with the largest K/Ti: it makes up for a
 /// constant disturbance soonest (Astrom & Hagglund 1995, section 4.6). None where no such PID does.
-std::optional<run::Gains> pid_by_margins(const Point& point, double tick_s, const Wanted& wanted);
+std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, const Wanted& wanted);
 
 /// State feedback u = base - K (x - x0) each tick, which takes an error of `position` for as bad as a command
 /// of `command` beside the base. The delays are not in it.

@@ -23,8 +23,12 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
     Loop& loop = add(name_of(each), loop_of(point, pid, rig.tick_s));
     if (!loop.margins.stable) loop.calmed_m_per_s = calmed_m_per_s(point, pid, rig.tick_s);
   }
-  if (question.margins) result.by_margins = pid_by_margins(point, rig.tick_s, *question.margins);
-  if (result.by_margins) add("pid_by_margins", loop_of(point, pid_of(*result.by_margins), rig.tick_s));
+  if (question.margins)
+    if (const auto found = pid_by_margins(point, rig.tick_s, *question.margins)) {
+      result.by_margins = found->gains;
+      add("pid_by_margins", loop_of(point, pid_of(found->gains), rig.tick_s)).binds =
+          found->gain_binds ? "gain" : "phase";
+    }
   if (question.lqr) {
     const Regulator regulator = lqr(point, rig.tick_s, question.lqr->position, question.lqr->command);
     result.lqr = regulator.gain;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <controllers/settings.hpp>
@@ -17,6 +18,7 @@ struct Loop {
   System open;
   Margins margins{};
   double calmed_m_per_s = 0.0;  ///< of an unstable one, see there
+  std::string_view binds{};     ///< of `pid_by_margins`, the margin that more gain would cost: gain or phase
 };
 
 /// Position and command errors that count alike in a least squares feedback, in units of both.

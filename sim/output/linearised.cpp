@@ -38,8 +38,8 @@ std::string root_lines(const char* what, const std::vector<Complex>& roots) {
 std::string margins_line(const linear::Loop& loop) {
   const linear::Margins& has = loop.margins;
   if (!has.stable && loop.calmed_m_per_s > 0.0)
-    return fmt::format("  {:18} unstable; dry friction calms swings slower than {:.3g} m/s\n", loop.name,
-                       loop.calmed_m_per_s);
+    return fmt::format("  {:18} unstable without friction; swings slower than {:.3g} m/s die out\n",
+                       loop.name, loop.calmed_m_per_s);
   if (!has.stable) return fmt::format("  {:18} unstable\n", loop.name);
   const auto at = [](double rad_per_s) { return fmt::format("at {:.3g} Hz", rad_per_s / turn_rad); };
   const std::string gain = has.gain ? fmt::format("{:.3g} ({:.1f} dB) {}", *has.gain,
@@ -50,7 +50,8 @@ std::string margins_line(const linear::Loop& loop) {
                                           : "no bound";
   const std::string shrunk =
       has.shrunk_gain ? fmt::format("; swings too at {:.3g} times its gain", *has.shrunk_gain) : "";
-  return fmt::format("  {:18} {:30} {}{}\n", loop.name, gain, phase, shrunk);
+  const std::string binds = loop.binds.empty() ? "" : fmt::format("; the {} margin binds", loop.binds);
+  return fmt::format("  {:18} {:30} {}{}{}\n", loop.name, gain, phase, shrunk, binds);
 }
 
 std::string position_words(const Linearised& all, const linear::Point& point) {
@@ -140,18 +141,23 @@ std::string title_of(const Linearised& all, const Study& study) {
   return text;
 }
 
+std::string gains_text(const Linearised& all, const controllers::PidForm& pid) {
+  return fmt::format("proportional: {:.4g} {}{}, integral_time: {:.4g} s, derivative_time: {:.4g} s",
+                     *pid.proportional_mA, command_unit(all), all.rig.has_angle() ? "/rad" : "",
+                     *pid.integral_time_s, *pid.derivative_time_s);
+}
+
 std::string pid_line(const Linearised& all, const Study& study) {
-  const auto& gains = *study.by_margins;
-  return fmt::format(
-      "{{kind: pid, name: pid_by_margins, proportional: {:.4g} {}, integral_time: {:.4g} s, derivative_time: "
-      "{:.4g} s}}",
-      gains.proportional_mA, command_unit(all) + (all.rig.has_angle() ? "/rad" : ""), gains.integral_time_s,
-      gains.derivative_time_s);
+  return fmt::format("{{kind: pid, name: pid_by_margins, {}}}",
+                     gains_text(all, linear::pid_of(*study.by_margins)));
 }
 
 std::string table_of(const Linearised& all) {
   std::string text;
   for (const Study& study : all.studies) text += (text.empty() ? "" : "\n") + of_study(all, study);
+  if (!all.tuned.empty()) text += "\ngains tuned, as by `run`\n";
+  for (const auto& [controller, pid] : all.tuned)
+    text += fmt::format("  {}: {}\n", controller, gains_text(all, pid));
   for (const auto& name : all.not_linear)
     text += fmt::format("{}: not linear, and has no margins here\n", name);
   return text;

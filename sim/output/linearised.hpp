@@ -13,9 +13,14 @@ namespace mckibben::output {
 struct Linearised {
   std::string name;  ///< of rig or scenario
   plant::Rig rig;
-  linear::Question question;
-  std::vector<linear::Study> studies;
+  linear::Question question{};
+  std::vector<linear::Study> studies{};
   std::vector<std::string> not_linear{};  ///< controllers
+  struct Tuned {
+    std::string controller;
+    controllers::PidForm pid;
+  };
+  std::vector<Tuned> tuned{};  ///< gains that the scenario left out
   std::vector<domain::InputFile> files{};
 };
 
@@ -30,7 +35,8 @@ std::string bode_svg(const Linearised& all, const linear::Study& study);
 std::string python_control(const Linearised& all);
 std::string matlab(const Linearised& all);
 
-/// The PID by margins as a scenario has it.
+/// Gains as a scenario has them, and the whole PID by margins.
+std::string gains_text(const Linearised& all, const controllers::PidForm& pid);
 std::string pid_line(const Linearised& all, const linear::Study& study);
 
 }  // namespace mckibben::output

@@ -52,6 +52,7 @@ Json loop_json(const linear::Loop& loop) {
   put("gain_margin", has.gain, "gain_margin_Hz", has.gain_rad_per_s);
   put("lowest_gain_margin", has.shrunk_gain, nullptr, 0.0);
   put("phase_margin_rad", has.phase_rad, "phase_margin_Hz", has.phase_rad_per_s);
+  if (!loop.binds.empty()) one["binding_margin"] = loop.binds;
   return one;
 }
 
@@ -139,6 +140,9 @@ std::string json_of(const Linearised& all) {
   if (all.question.swing_m_per_s) document["swing_m_per_s"] = *all.question.swing_m_per_s;
   document["points"] = Json::array();
   for (const Study& study : all.studies) document["points"].push_back(study_json(all, study));
+  document["tuned"] = Json::array();
+  for (const auto& [controller, pid] : all.tuned)
+    document["tuned"].push_back({{"controller", controller}, {"gains", gains_text(all, pid)}});
   document["not_linear"] = all.not_linear;
   return text_of(document);
 }

@@ -51,10 +51,13 @@ TEST_F(Linearise, SaysPolesAndMarginsAndWritesWhatItSays) {
   EXPECT_TRUE(wild.at("gain_margin").is_null());
   EXPECT_GT(wild.at("calmed_m_per_s").get<double>(), 0.0);
   EXPECT_GE(found.at("phase_margin_rad").get<double>(), 1.0471);
+  EXPECT_EQ(found.at("binding_margin"), "gain");
+  EXPECT_FALSE(soft.contains("binding_margin"));
   EXPECT_EQ(point.at("lqr").size(), 4u);
   const std::string table = read_text(folder / "table.txt");
-  EXPECT_TRUE(holds(table, "wild               unstable; dry friction calms swings slower than"));
+  EXPECT_TRUE(holds(table, "wild               unstable without friction; swings slower than"));
   EXPECT_TRUE(holds(table, point.at("pid_by_margins").get<std::string>()));
+  EXPECT_TRUE(holds(table, "; the gain margin binds\n"));
 }
 
 TEST_F(Linearise, PidByMarginsCanBePastedIntoTheScenario) {
@@ -66,6 +69,39 @@ TEST_F(Linearise, PidByMarginsCanBePastedIntoTheScenario) {
   EXPECT_EQ(pasted.at("name"), "pid_by_margins");
   EXPECT_NEAR(pasted.at("phase_margin_rad").get<double>(),
               document.at("points").at(0).at("loops").at(2).at("phase_margin_rad").get<double>(), 2e-3);
+}
+
+/// The speed up to which swings die out is where `--swing` tells stable loops from unstable ones.
+TEST_F(Linearise, SwingsThatDieOutAreThoseInWhichTheLoopIsStable) {
+  const auto wild = [&](const std::string& swing) {
+    return result_of("loops.yaml --at 0.15" + swing).at("points").at(0).at("loops").at(1);
+  };
+  const auto speed = wild("").at("calmed_m_per_s").get<double>();
+  EXPECT_TRUE(wild(" --swing '" + std::to_string(0.98 * speed) + " m/s'").at("stable").get<bool>());
+  EXPECT_FALSE(wild(" --swing '" + std::to_string(1.02 * speed) + " m/s'").at("stable").get<bool>());
+}
+
+/// Gains that a scenario leaves out are told once for all points, and make the same loop when pasted.
+TEST_F(Linearise, TunedGainsCanBePastedIntoTheScenario) {
+  const std::string open =
+      "schema: mckibben-scenario/1\nloads: [11 kg, 14 kg]\nduration: 0.5 s\n"
+      "target: {kind: steps, start: 0.1, moves: [{at: 0.1 s, to: 0.12}]}\ncontrollers:\n"
+      "  - {kind: pid, feedback_delay_ticks: 2";
+  write_text(scratch / "open.yaml", open + ", proportional: 6 mA, integral_time: 0.3 s}\n");
+  const auto tuned = result_of("open.yaml --at 0.12");
+  ASSERT_EQ(tuned.at("tuned").size(), 1u);
+  const auto gains = tuned.at("tuned").at(0).at("gains").get<std::string>();
+  EXPECT_TRUE(holds(read_text(scratch / "out" / "open-linearise" / "table.txt"),
+                    "\ngains tuned, as by `run`\n  pid: " + gains + "\n"));
+  write_text(scratch / "pasted.yaml", open + ", " + gains + "}\n");
+  const auto pasted = result_of("pasted.yaml --at 0.12");
+  EXPECT_TRUE(pasted.at("tuned").empty());
+  for (const std::size_t point : {0, 1}) {
+    const auto of = [&](const input::Json& all) { return all.at("points").at(point).at("loops").at(0); };
+    ASSERT_TRUE(of(tuned).at("stable").get<bool>());
+    EXPECT_NEAR(of(pasted).at("gain_margin").get<double>() / of(tuned).at("gain_margin").get<double>(), 1.0,
+                2e-3);
+  }
 }
 
 /// A gain of a lever is for a radian, here as in the scenario.

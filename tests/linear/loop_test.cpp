@@ -157,14 +157,20 @@ TEST(Loop, PidByMarginsHasThem) {
   const plant::Rig rig = fine_rig();
   const Point point = point_of(rig);
   for (const double wanted : {40.0, 60.0}) {
-    const auto gains = pid_by_margins(point, tick_s, {wanted * std::numbers::pi / 180.0});
-    ASSERT_TRUE(gains.has_value());
-    const auto pid = form(gains->proportional_mA, gains->integral_time_s, gains->derivative_time_s);
+    const auto found = pid_by_margins(point, tick_s, {wanted * std::numbers::pi / 180.0});
+    ASSERT_TRUE(found.has_value());
+    const controllers::PidForm pid = pid_of(found->gains);
     const Margins has = margins_of(loop_of(point, pid, tick_s));
     EXPECT_TRUE(has.stable);
     EXPECT_GT(*has.phase_rad * 180.0 / std::numbers::pi, wanted - 0.1);
     EXPECT_GE(*has.gain, 2.0);
     EXPECT_LT(growth(rig, point, pid, 2e-3, 20.0), 1.0);
+    // A little more gain costs the margin that binds, and no other.
+    controllers::PidForm stronger = pid;
+    stronger.proportional_mA = *pid.proportional_mA * 1.001;
+    const Margins after = margins_of(loop_of(point, stronger, tick_s));
+    EXPECT_EQ(*after.gain < 2.0, found->gain_binds) << wanted;
+    EXPECT_EQ(*after.phase_rad * 180.0 / std::numbers::pi < wanted, !found->gain_binds) << wanted;
   }
 }
 
