@@ -13,21 +13,26 @@ namespace {
 
 constexpr double noises_in_a_grain = 4.0;
 
+/// From 10 on with a decimal more: 12.6 is not told as 13.
+std::string shown(double value, int digits) {
+  return fmt::format("{:.{}g}", value, std::abs(value) >= 10.0 ? digits + 1 : digits);
+}
+
 }  // namespace
 
 std::string amount_of(Judged judged, double value, const plant::Rig& rig, int digits) {
   switch (judged) {
     case Judged::force:
-      return fmt::format("{:.{}g} N", value, digits);
+      return shown(value, digits) + " N";
     case Judged::angle:
-      return fmt::format("{:.{}g} deg", value / plant::degree_rad, digits);
+      return shown(value / plant::degree_rad, digits) + " deg";
     case Judged::pressure:
-      return std::abs(value) < 1e4 ? fmt::format("{:.{}g} mbar", 1e3 * value / plant::Pa_per_bar, digits)
-                                   : fmt::format("{:.{}g} bar", value / plant::Pa_per_bar, digits);
+      return std::abs(value) < 1e4 ? shown(1e3 * value / plant::Pa_per_bar, digits) + " mbar"
+                                   : shown(value / plant::Pa_per_bar, digits) + " bar";
     case Judged::contraction:
       break;
   }
-  return fmt::format("{:.{}g} mm", 1e3 * value * rig.muscle.rest_length_m, digits);
+  return shown(1e3 * value * rig.muscle.rest_length_m, digits) + " mm";
 }
 
 std::string_view unit_in_words(Judged judged) {

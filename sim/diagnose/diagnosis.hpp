@@ -42,6 +42,8 @@ struct FittedNumber {
   std::string unit;
   double value = 0.0, low = 0.0, high = 0.0;
   bool determined = true;  ///< false: the interval is all that is allowed, or a whole turn of an angle
+
+  bool holds(double other) const { return low <= other && other <= high; }
 };
 
 /// As it is told: "valve_dead_band", "bladder_elasticity (linear)", "muscle_leak of muscle 2".
@@ -89,8 +91,8 @@ struct Moved {
 
   /// Further off than it is stated to be.
   bool exceeds() const { return std::abs(deviations) > thresholds.parameter.most_deviations && !of_effect(); }
-  /// Worth telling: further than a data sheet promises, or the size of an effect.
-  bool notable() const { return std::abs(deviations) > thresholds.parameter.notable || of_effect(); }
+  /// Worth telling: further than a data sheet promises.
+  bool notable() const { return std::abs(deviations) > thresholds.parameter.notable; }
   bool of_effect() const { return fitted.name.find("effects.") != std::string::npos; }
 };
 

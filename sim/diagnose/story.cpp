@@ -63,10 +63,12 @@ std::string what_is_judged(const Diagnosis& d) {
   return "the load's height";
 }
 
-std::string bench_in_words(const Diagnosis& d) {
+/// Faults of the bench that the data show, or those whose interval holds 0.
+std::string bench_in_words(const Diagnosis& d, bool shown) {
   std::string text;
   for (const BenchFault& fault : d.bench) {
-    text += capitalised(fault.words);
+    if (fault.size.holds(0.0) == shown) continue;
+    text += shown ? capitalised(fault.words) : "Perhaps " + fault.words;
     if (!fault.write.empty() && fault.write.size() < thresholds.tell.short_line)
       text += fmt::format(" (in the data set: {})", fault.write);
     text += ". ";
@@ -86,6 +88,13 @@ std::string gap_in_words(const Diagnosis& d) {
       amount_in_words(d, d.gap.noise_floor));
 }
 
+/// Where a valve is of another kind, what gas it passes and what it fills stand for that.
+bool is_of_another_valve(const Moved& m) {
+  return std::abs(m.deviations) > thresholds.tell.not_credible &&
+         (m.fitted.name.ends_with("valve.conductance") || m.fitted.name.ends_with("hose.conductance") ||
+          m.fitted.name.ends_with("muscle.dead_volume"));
+}
+
 /// Numbers further off than they are stated to be; empty, or sentences and a space.
 std::string exceeded_in_words(const Diagnosis& d) {
   std::string text;
@@ -97,6 +106,7 @@ std::string exceeded_in_words(const Diagnosis& d) {
         "where the value comes from. ",
         m.fitted.name, deviation, m.fitted.unit == "1" ? "" : " " + m.fitted.unit, std::abs(m.deviations));
   }
+  if (std::ranges::any_of(d.recalibrated, is_of_another_valve)) text += "Not credible: is valve.kind right? ";
   if (d.contradicts_sheet) text += "So far off that something else may be missing in their place. ";
   return text;
 }
@@ -260,8 +270,10 @@ std::string verdict_in_words(const Diagnosis& d) {
 }  // namespace
 
 std::string because(const Diagnosis& diagnosis) {
-  return bench_in_words(diagnosis) + faults_in_words(diagnosis) +
-         (diagnosis.ended == Ended::no ? "" : "So far: ") + verdict_in_words(diagnosis) +
+  std::string open = bench_in_words(diagnosis, false);
+  if (!open.empty()) open = " " + open.substr(0, open.size() - 1);
+  return bench_in_words(diagnosis, true) + faults_in_words(diagnosis) +
+         (diagnosis.ended == Ended::no ? "" : "So far: ") + verdict_in_words(diagnosis) + open +
          search_in_words(diagnosis);
 }
 

@@ -39,6 +39,7 @@ TEST(Story, NamesFaultsOfTheBenchFirstAndSaysWhereASearchWasEnded) {
   d.verdict = Verdict::recalibrate;
   d.bench = {{.name = "loads_differ",
               .runs = {"r05"},
+              .size = {.name = "", .unit = "", .value = -2.8, .low = -2.9, .high = -2.7},
               .write = "load: 11.1 kg",
               .words = "the load of run r05 is 2.8 kg less than written"}};
   const std::string whole = because(d);
@@ -54,6 +55,44 @@ TEST(Story, NamesFaultsOfTheBenchFirstAndSaysWhereASearchWasEnded) {
       cut.ends_with("The search was ended after as many simulations as it may make before it was "
                     "through; not done to the end: effects."))
       << cut;
+}
+
+TEST(Story, BeginsWithNoFaultWhoseIntervalHoldsNothing) {
+  Diagnosis d;
+  d.verdict = Verdict::recalibrate;
+  d.bench = {{.name = "zeros_differ",
+              .runs = {"r2"},
+              .size = {.name = "", .unit = "", .value = 1e-4, .low = -1e-4, .high = 3e-4},
+              .words = "the zero of run r2 is 0.02 mm too high"}};
+  const std::string text = because(d);
+  EXPECT_TRUE(text.starts_with("No effect is missing")) << text;
+  EXPECT_TRUE(text.ends_with(". Perhaps the zero of run r2 is 0.02 mm too high.")) << text;
+}
+
+TEST(Story, AsksForTheKindOfAValveWhoseNumbersAreNotCredible) {
+  Diagnosis d;
+  d.verdict = Verdict::recalibrate;
+  const auto says = [&](const char* name, double deviations) {
+    d.recalibrated = {{.fitted = {.name = name, .unit = "m3", .value = 5e-4}, .deviations = deviations}};
+    return because(d).find("Not credible: is valve.kind right?") != std::string::npos;
+  };
+  EXPECT_TRUE(says("muscle.dead_volume", 40.0));
+  EXPECT_TRUE(says("mechanics.opposite.valve.conductance", -40.0));
+  EXPECT_FALSE(says("muscle.dead_volume", 4.0));
+  EXPECT_FALSE(says("muscle.rest_radius", 40.0));
+}
+
+TEST(Story, TellsOnlyNumbersThatMovedAndErrorsByADecimal) {
+  Diagnosis d;
+  d.verdict = Verdict::recalibrate;
+  d.recalibrated = {{.fitted = {.name = "effects.bladder_elasticity.ratio", .unit = "1", .value = 0.03},
+                     .deviations = 0.01}};
+  d.gap.judged = Judged::force;
+  d.gap.nominal_rmse = 12.6;
+  d.gap.corrected_rmse = 0.512;
+  const std::string text = because(d);
+  EXPECT_EQ(text.find("ratio"), std::string::npos) << text;
+  EXPECT_NE(text.find("falls from 12.6 N to 0.51 N"), std::string::npos) << text;
 }
 
 TEST(Story, WritesALawAsASumAndSaysInWhatItCounts) {
