@@ -113,6 +113,30 @@ double Search::gain_of_terms(const Model& base) const {
   return best;
 }
 
+/// A law of an effect that is not the rig's may explain all with numbers that the sheet forbids, where
+/// another law of the same effect needs none: those from the rig as described, from every shape, as their
+/// valleys are apart.
+void Search::try_other_laws() {
+  const Point found = here_->point;
+  for (std::size_t i = 0; i < found.effects.size(); ++i) {
+    const auto& law = dictionary_.entries[found.effects[i].entry].effect;
+    for (std::size_t k = 0; law && k < dictionary_.entries.size(); ++k) {
+      const Entry& other = dictionary_.entries[k];
+      if (!other.effect || other.effect->effect != law->effect || other.effect->side != law->side ||
+          other.effect->variant == law->variant)
+        continue;
+      for (const auto& shapes : other.begin) {
+        Point point = found.without(i);
+        point.z.setZero();
+        point.effects.push_back(dictionary_.clipped({k, 1.0, shapes}));
+        std::ranges::sort(point.effects, {}, &Added::entry);
+        Model m = refined(std::move(point));
+        if (m.score > here_->score) here_ = std::move(m);
+      }
+    }
+  }
+}
+
 /// Where the bench alone is wrong, the rig may be as described.
 void Search::describe_bench() {
   const Names names = dictionary_.names(here_->point);
@@ -211,6 +235,7 @@ void Search::go_on() {
   for (int round = 0; round < rounds && !outside_; ++round) {
     const Names names = dictionary_.names(here_->point);
     if (bent(*here_) && looked.insert(names).second) {
+      if (here_->off_sheet() > decisive.conflict) try_other_laws();
       Point q = here_->point;
       q.z.setZero();
       Model base(problem_, q, here_->error);
@@ -255,7 +280,7 @@ Identified Search::found() && {
                             .general = m.point.terms != Terms::none,
                             .score = m.score,
                             .held_out = held_out(m, groups),
-                            .off_sheet = m.point.z.size() > 0 ? m.point.z.cwiseAbs().maxCoeff() : 0.0});
+                            .off_sheet = m.off_sheet()});
     result.models.push_back(std::move(m));
   }
   if (result.table.empty()) throw data::UnfitData(rows_.data(), "no model of the rig goes through all runs");

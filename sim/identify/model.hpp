@@ -56,6 +56,8 @@ class Model {
   Eigen::VectorXd residual() const;
   /// Root mean square of the judged reading's, in units of the rows.
   double left() const;
+  /// Of the rig's numbers the one furthest from where it is described, in deviations.
+  double off_sheet() const { return point.z.size() > 0 ? point.z.cwiseAbs().maxCoeff() : 0.0; }
   /// Effects of the rig, not only faults of the bench.
   bool has_effects() const;
   /// Variances of the priors, of the normals that touch them.
