@@ -4,6 +4,7 @@
 #include <numbers>
 #include <optional>
 
+#include <controllers/command_filter.hpp>
 #include <controllers/controller.hpp>
 
 namespace mckibben::controllers {
@@ -13,8 +14,7 @@ namespace mckibben::controllers {
 double ratio_per_rad(const Knowledge& known);
 
 /// No limits unless given.
-struct AngleTerms {
-  std::optional<double> largest_current_speed_mA_per_s = std::nullopt;
+struct AngleTerms : CommandTerms {
   std::optional<double> lowest_angle_rad = std::nullopt, highest_angle_rad = std::nullopt;
   std::optional<double> fastest_joint_rad_per_s = std::nullopt;
 
@@ -26,8 +26,7 @@ struct AngleTerms {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     constexpr double turn_rad = 2.0 * std::numbers::pi;
-    visit("largest_command_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
-          "how fast each command may change; at once if absent");
+    CommandTerms::fields(self, visit);
     visit("lowest_angle", self.lowest_angle_rad, "rad", -turn_rad, turn_rad,
           "joint angle at which a lower target is cut");
     visit("highest_angle", self.highest_angle_rad, "rad", -turn_rad, turn_rad,

@@ -8,14 +8,14 @@
 #include <optional>
 #include <vector>
 
+#include <controllers/command_filter.hpp>
 #include <controllers/controller.hpp>
 #include <controllers/current_range.hpp>
 
 namespace mckibben::controllers {
 
 /// Limits besides those of the current itself; none unless given.
-struct SafetyTerms {
-  std::optional<double> largest_current_speed_mA_per_s = std::nullopt;
+struct SafetyTerms : CommandTerms {
   std::optional<double> highest_target = std::nullopt;
   std::optional<double> fastest_load_per_s = std::nullopt;
 
@@ -32,8 +32,7 @@ struct SafetyTerms {
 
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
-    visit("largest_command_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
-          "how fast the command may change; at once if absent");
+    CommandTerms::fields(self, visit);
     visit("highest_target", self.highest_target, "1", 0.0, 1.0,
           "contraction ratio at which a higher target is cut (T 2.3: above 0.20 the muscle is at risk)");
     visit("fastest_load", self.fastest_load_per_s, "1/s", 1e-3, 1e6,

@@ -2,8 +2,18 @@
 #include <controllers/settings.hpp>
 
 namespace mckibben::controllers {
+
 std::unique_ptr<Controller> make(const Settings& settings, const Knowledge& knowledge) {
-  return std::visit([&](const auto& one) { return one.make(knowledge); }, settings);
+  auto made = std::visit([&](const auto& one) { return one.make(knowledge); }, settings);
+  const CommandFilter* filter = filter_of(settings);
+  if (filter == nullptr) return made;
+  return filtered(*filter, limits_of(settings, knowledge), knowledge.tick_s, std::move(made));
+}
+
+const CommandFilter* filter_of(const Settings& settings) {
+  const auto* alone = std::get_if<StaticInverseSettings>(&settings);
+  const auto* terms = alone != nullptr ? &alone->limits : part_of<CommandTerms>(settings);
+  return terms != nullptr && terms->command_filter ? &*terms->command_filter : nullptr;
 }
 
 const std::string& name_of(const Settings& settings) {

@@ -62,8 +62,8 @@ To settings_as(const std::variant<From...>& settings) {
       settings);
 }
 
-/// A controller at its beginning. Throws std::invalid_argument if the settings are incomplete: a PID whose
-/// gains are still to be tuned, a recording that was not read.
+/// A controller at its beginning, its commands filtered as they are to be. Throws std::invalid_argument if
+/// the settings are incomplete: a PID whose gains are still to be tuned, a recording that was not read.
 std::unique_ptr<Controller> make(const Settings& settings, const Knowledge& knowledge);
 
 /// The name it goes by in tables and files.
@@ -78,7 +78,7 @@ std::optional<CurrentRange> limits_of(const Settings& settings, const Knowledge&
 
 /// What the settings share with other controllers: the feedback (PidForm), the ends of the output
 /// (OutputLimits), what is said of somebody else's program (GuestTerms), of a calibration (CalibrationTerms),
-/// of a model of the rig (PlansWithModel). Null if they have no such part.
+/// of a model of the rig (PlansWithModel), of its commands (CommandTerms). Null if they have no such part.
 template <class Part, class Whole>
 auto part_of(Whole& settings) {
   using Found = std::conditional_t<std::is_const_v<Whole>, const Part, Part>;
@@ -89,6 +89,9 @@ auto part_of(Whole& settings) {
       },
       settings);
 }
+
+/// What filters its commands, if anything does, else null.
+const CommandFilter* filter_of(const Settings& settings);
 
 /// How a controller weighs the load in contractions, if it does, else null.
 const WeighingSettings* weighing_of(const Settings& settings);

@@ -52,7 +52,9 @@ std::string unfit(const Scenario& scenario) {
   controllers::Settings only = scenario.controllers.front();
   if (const auto* terms = controllers::part_of<controllers::PidForm>(only);
       terms != nullptr && terms->needs_tuning())
-    return "controllers: its gains are missing; tune them with `run`, and write them down";
+    return fmt::format(
+        "controllers: {} has no gains; `run` of this file tunes and prints them: write them here",
+        name_of(only));
   if (const auto* plans = controllers::part_of<controllers::ModelTerms>(only);
       plans != nullptr && !plans->assumed_load_kg)
     return "controllers: to find its load from the weighing takes longer than a tick; write it down as "

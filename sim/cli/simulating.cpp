@@ -178,6 +178,7 @@ int run_scenario(const RunOptions& options) {
   job.write("run.json", document);
   job.write("table.txt", table);
   if (!comparison.targets.empty()) job.write("tracking.svg", output::tracking_svg(scenario, comparison));
+  job.write("loops.svg", output::loops_svg(scenario, comparison));
   job.write("report.html", report::report_html(scenario, comparison));
   const int status = job.finish({document, table}, any_failed(comparison.runs) ? failure
                                                    : !comparison.unmet.empty() ? criterion_not_met
@@ -228,7 +229,7 @@ void add_run(CLI::App& app, Asked& asked) {
       "  mckibben run my.yaml --out results --seed 2      somewhere else, with other noise\n"
       "  mckibben run my.yaml --json > result.json        for a script\n"
       "  mckibben run my.yaml --format mat,netcdf         also for MATLAB, Octave, Python\n"
-      "Writes table.txt, run.json, report.html, tracking.svg and a CSV for each run.\n");
+      "Writes table.txt, run.json, report.html, tracking.svg, loops.svg and a CSV for each run.\n");
 }
 
 void add_replay(CLI::App& app, Asked& asked) {

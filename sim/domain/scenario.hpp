@@ -188,8 +188,9 @@ struct Scenario {
       visit_controllers<controllers::LeverSettings>(self, controllers_of_rig);
     else
       visit_controllers<controllers::SingleSettings>(self, controllers_of_rig);
-    visit("joint_force", self.outer_forces,
-          "forces on the cord in addition to the load, one after the other; none before the first");
+    if (self.rig.lever() == nullptr)
+      visit("joint_force", self.outer_forces,
+            "forces on the cord in addition to the load, one after the other; none before the first");
     visit_torques(self, visit);
     fields_of_chance(self, visit);
     if (self.rig.lever() != nullptr)

@@ -31,6 +31,8 @@ class ControllerChecker {
         guest->folder = source_.folder().string();
       if (const auto* plugin = std::get_if<controllers::PluginSettings>(&scenario_.controllers[i]))
         look_for_library(plugin->library, *node.find("library"));
+      if (const auto* filter = controllers::filter_of(scenario_.controllers[i]))
+        check_filter(*filter, *node.find("command_filter")->find("frequency"));
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
       if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())
@@ -41,6 +43,15 @@ class ControllerChecker {
   }
 
  private:
+  void check_filter(const controllers::CommandFilter& filter, const Node& frequency) {
+    const double half_Hz = 0.5 / scenario_.rig.tick_s;
+    if (filter.frequency_Hz >= half_Hz)
+      problems_.error(
+          source_, frequency.place,
+          fmt::format("frequency = {}: must be below half the sampling rate, {:.4g} Hz (rig: tick)",
+                      frequency.text, half_Hz));
+  }
+
   /// Reading a scenario runs nothing of it; what is in the library is seen when it is used.
   void look_for_library(const std::string& library, const Node& node) {
     constexpr std::size_t largest_library_bytes = 256U << 20U;

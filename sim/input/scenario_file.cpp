@@ -216,10 +216,6 @@ class ScenarioChecker {
   void check_outer_forces() {
     const auto& forces = scenario_.outer_forces;
     const plant::Rig& rig = scenario_.rig;
-    if (!forces.empty() && rig.lever() != nullptr)
-      return problems_.error(source_, list("joint_force").place,
-                             "joint_force: forces on a cord are of a hanging load; the rig turns a lever, "
-                             "which takes joint_torque");
     if (!scenario_.outer_torques.empty() && !rig.has_angle())
       return problems_.error(
           source_, list("joint_torque").place,

@@ -36,8 +36,8 @@ class Element : public StructReader {
   void read(Sensors& into, std::vector<Sensed>& named, const ReadContext& context) {
     if (!is_map()) return;
     Sensor sensor;
-    required("signal", sensor.signal, "");
-    require("kind");
+    required("signal", sensor.signal, "what it reads");
+    require("kind", "how it reads, or none");
     const Node* said = take("kind");
     const auto kind = said == nullptr ? std::nullopt : choice("kind", *said, kinds_or_none);
     if (!kind || !clean()) return;

@@ -57,8 +57,8 @@ const Node* ValueReader::take(std::string_view key) {
   return nullptr;
 }
 
-void ValueReader::require(std::string_view key) {
-  if (map_.find(key) == nullptr) bad(map_, fmt::format("the key {} is missing", key));
+void ValueReader::require(std::string_view key, std::string_view meaning) {
+  if (map_.find(key) == nullptr) bad(map_, fmt::format("the key {} is missing: {}", key, meaning));
 }
 
 void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) {

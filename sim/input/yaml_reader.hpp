@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -89,7 +90,7 @@ class ValueReader {
   bool is_map();
   /// The value under `key`, noted as known. Null if absent, or left empty, which is a problem.
   const Node* take(std::string_view key);
-  void require(std::string_view key);
+  void require(std::string_view key, std::string_view meaning);
   void check_unknown(std::span<const std::string_view> also_allowed);
   bool clean() const { return problems_.errors() == errors_before_; }
   /// Keys of a part that is not there say nothing.
@@ -139,7 +140,7 @@ class StructReader : public ValueReader {
 
   template <class... Rest>
   void required(std::string_view key, Rest&&... rest) {
-    require(key);
+    require(key, std::get<sizeof...(rest) - 1>(std::tie(rest...)));
     (*this)(key, std::forward<Rest>(rest)...);
   }
 

@@ -46,11 +46,23 @@ System system_of(const controllers::PidForm& pid, double tick_s) {
   return result;
 }
 
-System loop_of(const Point& point, const controllers::PidForm& pid, double tick_s) {
+System system_of(const controllers::CommandFilter& filter, double tick_s) {
+  const controllers::Biquad of = biquad_of(filter, tick_s);
+  System result{Matrix(2, 2), Matrix(2, 1), Matrix(1, 2), Matrix::Constant(1, 1, of.b0), tick_s};
+  result.A << -of.a1, 1.0, -of.a2, 0.0;
+  result.B << of.b1 - of.a1 * of.b0, of.b2 - of.a2 * of.b0;
+  result.C << 1.0, 0.0;
+  return result;
+}
+
+System loop_of(const Point& point, const controllers::PidForm& pid, double tick_s,
+               const controllers::CommandFilter* filter) {
   System plant = point.system();
   plant.C *= point.shown;
   const double delay_s = point.delay_s() + pid.feedback_delay_ticks * tick_s;
-  return in_series(system_of(pid, tick_s), sampled(plant, pid.sample_ticks * tick_s, delay_s));
+  System driven = sampled(plant, tick_s, delay_s);
+  if (filter != nullptr) driven = in_series(system_of(*filter, tick_s), driven);
+  return in_series(system_of(pid, tick_s), held(driven, pid.sample_ticks));
 }
 
 std::vector<double> frequencies(double step_s, int count) {
@@ -93,9 +105,10 @@ Margins margins_of(const System& loop) {
   return margins;
 }
 
-double calmed_m_per_s(const Point& point, const controllers::PidForm& pid, double tick_s) {
+double calmed_m_per_s(const Point& point, const controllers::PidForm& pid, double tick_s,
+                      const controllers::CommandFilter* filter) {
   const auto calm = [&](double speed) {
-    return is_stable(closed(loop_of(point.swinging(speed), pid, tick_s)));
+    return is_stable(closed(loop_of(point.swinging(speed), pid, tick_s, filter)));
   };
   double low = 1e-6, high = 10.0;
   if (!calm(low)) return 0.0;

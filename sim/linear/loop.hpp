@@ -16,8 +16,13 @@ controllers::PidForm pid_of(const run::Gains& gains);
 /// From error to command, sample by sample, limits and dead zone left out. Its gain must be there.
 System system_of(const controllers::PidForm& pid, double tick_s);
 
-/// The open loop of a PID round the rig, as it runs: sampled, its command held, with all delays.
-System loop_of(const Point& point, const controllers::PidForm& pid, double tick_s);
+/// The filter at each tick.
+System system_of(const controllers::CommandFilter& filter, double tick_s);
+
+/// The open loop of a PID round the rig, as it runs: sampled, its command held and filtered (null: not), with
+/// all delays.
+System loop_of(const Point& point, const controllers::PidForm& pid, double tick_s,
+               const controllers::CommandFilter* filter = nullptr);
 
 struct Margins {
   bool stable = false;  ///< the closed loop; without that there are no margins
@@ -30,7 +35,8 @@ Margins margins_of(const System& loop);
 
 /// Of a loop that is unstable: up to which amplitude [m/s] swings of the load die out by dry friction; 0:
 /// none.
-double calmed_m_per_s(const Point& point, const controllers::PidForm& pid, double tick_s);
+double calmed_m_per_s(const Point& point, const controllers::PidForm& pid, double tick_s,
+                      const controllers::CommandFilter* filter = nullptr);
 
 /// Frequencies [rad/s], evenly in their logarithm, up to half the sampling rate.
 std::vector<double> frequencies(double step_s, int count);

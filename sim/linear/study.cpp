@@ -20,8 +20,9 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
   for (const controllers::Settings& each : controllers) {
     if (!is_linear(each)) continue;
     const auto& pid = *controllers::part_of<controllers::PidForm>(each);
-    Loop& loop = add(name_of(each), loop_of(point, pid, rig.tick_s));
-    if (!loop.margins.stable) loop.calmed_m_per_s = calmed_m_per_s(point, pid, rig.tick_s);
+    const auto* filter = filter_of(each);
+    Loop& loop = add(name_of(each), loop_of(point, pid, rig.tick_s, filter));
+    if (!loop.margins.stable) loop.calmed_m_per_s = calmed_m_per_s(point, pid, rig.tick_s, filter);
   }
   if (question.margins)
     if (const auto found = pid_by_margins(point, rig.tick_s, *question.margins)) {

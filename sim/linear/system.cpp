@@ -105,6 +105,16 @@ System sampled(const System& system, double step_s, double delay_s) {
   return result;
 }
 
+System held(const System& system, int times) {
+  System result = system;
+  for (int i = 1; i < times; ++i) {
+    result.B = (system.A * result.B + system.B).eval();
+    result.A = (system.A * result.A).eval();
+  }
+  result.step_s *= times;
+  return result;
+}
+
 System in_series(const System& first, const System& then) {
   const Eigen::Index n = first.states(), m = then.states();
   System result{Matrix::Zero(n + m, n + m), Matrix(n + m, first.B.cols()), Matrix(then.C.rows(), n + m),

@@ -34,6 +34,9 @@ double gain_at_rest(const System& system);
 /// `delay_s` late (Franklin, Powell, Workman, Digital Control 1998, section 4.3). D must be 0.
 System sampled(const System& system, double step_s, double delay_s = 0.0);
 
+/// A system in samples as it is seen each `times` samples, its input held in between; D must be 0.
+System held(const System& system, int times);
+
 /// `then` on what `first` puts out.
 System in_series(const System& first, const System& then);
 /// Its output, with the sign changed, added to its input.

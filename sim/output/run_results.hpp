@@ -31,4 +31,8 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
 /// One picture: for each load a panel with the target and every controller's contraction.
 std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison& comparison);
 
+/// Another: muscle pressure over contraction ratio, a panel for each load or pair of commands, of each
+/// muscle.
+std::string loops_svg(const domain::Scenario& scenario, const run::Comparison& comparison);
+
 }  // namespace mckibben::output

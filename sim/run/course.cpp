@@ -99,6 +99,10 @@ class Drives {
     const auto is_judged = [&](std::size_t k) {
       return measured_.rows.empty() || std::ranges::binary_search(measured_.rows, k);
     };
+    if (const double before_s = 0.5 * measured_.point_s, fill_s = filling_s(); fill_s > 0.0) {
+      add(read_s[0] - before_s - fill_s, emptied(at(0, 0)));
+      add(read_s[0] - before_s, at(0, 0));
+    }
     for (std::size_t k = 0; k < read_s.size(); ++k) {
       if (k > 0) {
         add(read_s[k - 1] + jump_s, at(k - 1, k, {.command = 1.0, .force = 1.0}));
@@ -124,6 +128,29 @@ class Drives {
       put(drive, column->channel.muscle == 2 ? drive.opposite : drive,
           share == 0.0 ? values[k] : std::lerp(values[k], values[next], share), rig_);
     }
+    return drive;
+  }
+
+  /// How long pressures take to the first point: no faster than to any other. 0: none is given.
+  double filling_s() const {
+    double first_Pa = 0.0, step_Pa = 0.0;
+    bool any = false;
+    for (const auto& [column, put] : given_) {
+      if (!column->is_pressure()) continue;
+      any = true;
+      first_Pa = std::max(first_Pa, std::abs(column->values.front()));
+      for (std::size_t k = 1; k < column->values.size(); ++k)
+        step_Pa = std::max(step_Pa, std::abs(column->values[k] - column->values[k - 1]));
+    }
+    if (!any) return 0.0;
+    return 0.5 * measured_.point_s * (step_Pa > 0.0 ? std::max(1.0, first_Pa / step_Pa) : 1.0);
+  }
+
+  /// The same before the muscles were filled.
+  static ride::Drive emptied(ride::Drive drive) {
+    for (ride::Command* command : {static_cast<ride::Command*>(&drive), &drive.opposite})
+      for (auto* pressure : {&command->muscle_pressure_Pa, &command->valve_pressure_Pa})
+        if (*pressure) *pressure = 0.0;
     return drive;
   }
 

@@ -31,7 +31,8 @@ struct Course {
 /// stamps: commands, forces and the supply, where they run straight on, are held at their mean for a tick at
 /// most, pressures that stay jump within a microsecond. Of settled points the stamp is when a point is read,
 /// at the end of its time: its command holds all of that time, a pressure or length that is given runs
-/// straight to it in the first half.
+/// straight to it in the first half. To the first point pressures rise from none as slowly: let go at a
+/// pressure, a load swings past where friction would have held it.
 Course course_of(const domain::Measurement& measured, const plant::Rig& rig);
 
 /// Of a run with a clock of its own, or with a row each tick of `rig`.

@@ -17,8 +17,8 @@ struct Gap {
   std::string reading;  ///< contraction, angle, force, muscle_pressure; of a pair muscle_pressure_1, ..._2
   std::string unit;     ///< 1, rad or deg, N, bar
   double rmse = 0.0, largest = 0.0, mean = 0.0;
-  double low = std::numeric_limits<double>::infinity(), high = -low;  ///< of what was measured
   std::size_t rows = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;  ///< of what was measured
 };
 
 /// Each reading beside its simulation at a row of the recording, in the unit of its gap; NaN where there is

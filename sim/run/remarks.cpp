@@ -37,10 +37,10 @@ std::string cause(bool low, const controllers::CurrentRange& limits, const plant
   if (!low && limits.highest_mA < valve.highest_mA - step_mA)
     return fmt::format("the rig's valve goes up to {}: raise highest_command",
                        command(valve.highest_mA, rig));
-  return low ? "the target needs less pressure than the valve gives: a target that stays higher, a "
-               "heavier load or a lower valve.zero_pressure would help"
-             : "the target needs more pressure than the valve gives: a lower target, a lighter load or a "
-               "higher valve.span_pressure (and supply_pressure) would help";
+  return low ? "the valve gives no less pressure: a target that stays higher, a heavier load, a lower "
+               "valve.zero_pressure or a calibration of this rig and load would help"
+             : "the valve gives no more pressure: a lower target, a lighter load, a higher "
+               "valve.span_pressure (and supply_pressure) or a calibration of this rig and load would help";
 }
 
 std::string limit_warning(const Metrics& metrics, const std::optional<controllers::CurrentRange>& limits,

@@ -102,7 +102,7 @@ TEST(Control, RefusesWhatCannotDriveABench) {
     EXPECT_TRUE(holds(said.err, why));
   };
   refused(on_bench, "[16.138 kg]", "[11 kg, 16 kg]", "one load hangs on a bench");
-  refused(on_bench, "proportional: 60 mA, ", "", "its gains are missing");
+  refused(on_bench, "proportional: 60 mA, ", "", "has no gains; `run` of this file");
   for (const char* weighs : {"{kind: model_inverse}", "{kind: model_inverse_feedback}"})
     refused(on_bench, "{kind: pid, proportional: 60 mA, integral_time: 0.15 s, derivative_time: 0.05 s}",
             weighs, "write it down as assumed_load");

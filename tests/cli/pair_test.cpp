@@ -364,6 +364,7 @@ TEST(Pair, RunsUnderTwoCurrents) {
   EXPECT_TRUE(holds(html, "PairPicture", "Joint angle"));
   EXPECT_TRUE(std::filesystem::exists(scratch / "out/pair/triangle.mat"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out/pair/tracking.svg")) << "nothing is followed";
+  EXPECT_TRUE(holds(read_text(scratch / "out/pair/loops.svg"), ">steps, muscle 1<", ">triangle, muscle 2<"));
 
   // What was simulated is found again by a replay.
   write_text(scratch / "dataset.yaml",

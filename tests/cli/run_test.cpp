@@ -43,11 +43,18 @@ Json run_from(const fs::path& scenarios, const std::string& name) {
   const fs::path folder = scratch / "out/" / name;
   EXPECT_EQ(read_text(folder / "table.txt"), said.out);
   EXPECT_EQ(read_text(folder / "tracking.svg").rfind("<svg", 0), 0u);
+  const std::string loops = read_text(folder / "loops.svg");
+  EXPECT_EQ(loops.rfind("<svg", 0), 0u);
   Json document = Json::parse(read_text(folder / "run.json"));
   EXPECT_EQ(document.at("schema"), "mckibben-run/1");
   EXPECT_EQ(read_text(folder / document.at("report").get<std::string>()).rfind("<!DOCTYPE html>", 0), 0u);
   const auto& scenario = document.at("scenario");
   EXPECT_EQ(document.at("runs").size(), scenario.at("loads").size() * scenario.at("controllers").size());
+  std::size_t lines = 0;
+  for (std::size_t at = loops.find("<polyline "); at != std::string::npos;
+       at = loops.find("<polyline ", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, document.at("runs").size());
   EXPECT_EQ(document.at("input_files").at(0).at("sha256").get<std::string>().size(), 64u);
   for (const auto& run : document.at("runs")) {
     const std::string unit = run.contains("rmse_rad") ? "_rad" : "";  // of a lever

@@ -44,13 +44,16 @@ Point point_of(const plant::Rig& rig) {
 /// How a swing that begins with this speed of the load has grown after `seconds`; above 1, the loop is
 /// unstable.
 double growth(const plant::Rig& rig, const Point& point, const controllers::PidForm& form_of,
-              double kick_m_per_s, double seconds) {
+              double kick_m_per_s, double seconds,
+              const std::optional<controllers::CommandFilter>& filter = {}) {
   controllers::PidSettings settings;
+  settings.command_filter = filter;
   static_cast<controllers::PidForm&>(settings) = form_of;
   settings.rest_current_mA = point.command.current_mA;
   controllers::Knowledge known = run::knowledge_of(rig, {point.position});
   const double count = known.contraction_per_count;
-  const auto controller = settings.make(known);
+  const auto controller = controllers::make(settings, known);
+  controller->rest();
   ride::Ride ride({rig, lifted_kg}, rig.integrator);
   ride::Drive drive;
   drive.current_mA = point.command.current_mA;
@@ -126,6 +129,38 @@ TEST(Loop, IsUnstableJustBeyondItsMarginsAndStableJustWithin) {
       Point late = point;
       late.reading_delay_s += share * more_s;
       EXPECT_EQ(margins_of(loop_of(late, pid, tick_s)).stable, share < 1.0) << share;
+    }
+  }
+}
+
+/// The loop is that without a filter times the filter's response, and unstable just beyond its margin.
+TEST(Loop, CountsTheFilterOfTheCommand) {
+  using controllers::CommandFilter, controllers::FilterKind;
+  const plant::Rig rig = fine_rig();
+  const Point point = point_of(rig);
+  controllers::PidForm pid = form(8.0, 0.4, 0.05);
+  const System without = loop_of(point, pid, tick_s);
+  for (const CommandFilter& filter :
+       {CommandFilter{FilterKind::low_pass, 5.0, 0.7071}, CommandFilter{FilterKind::notch, 3.0, 0.5}}) {
+    pid.sample_ticks = 1;
+    const System with = loop_of(point, pid, tick_s, &filter);
+    for (const double Hz : {0.2, 1.7, 3.0, 11.0}) {
+      const double w = 2.0 * std::numbers::pi * Hz,
+                   s = std::tan(0.5 * w * tick_s) / std::tan(std::numbers::pi * filter.frequency_Hz * tick_s);
+      const Complex above = filter.kind == FilterKind::notch ? 1.0 - s * s : 1.0,
+                    ratio = above / Complex(1.0 - s * s, 2.0 * filter.damping * s);
+      EXPECT_NEAR(std::abs(response(with, w) - ratio * response(without, w)), 0.0,
+                  1e-9 * std::abs(response(without, w)))
+          << Hz;
+    }
+    pid.sample_ticks = 2;
+    const auto gain = margins_of(loop_of(point, pid, tick_s, &filter)).gain;
+    ASSERT_TRUE(gain.has_value());
+    EXPECT_GT(std::abs(*gain / *margins_of(loop_of(point, pid, tick_s)).gain - 1.0), 0.07) << "it matters";
+    for (const double beside : {0.94, 1.06}) {
+      controllers::PidForm stronger = pid;
+      stronger.proportional_mA = *pid.proportional_mA * *gain * beside;
+      EXPECT_EQ(growth(rig, point, stronger, 2e-3, 12.0, filter) < 1.0, beside < 1.0) << beside;
     }
   }
 }

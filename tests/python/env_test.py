@@ -41,6 +41,24 @@ class Env(unittest.TestCase):
         self.assertTrue(all(9.0 <= load <= 10.0 for load in loads))
         self.assertEqual(env.reset(options={"load_kg": 15.0})[1]["load_kg"], 15.0)
 
+    def test_its_history_is_there_to_be_plotted(self):
+        env = mckibben.Env(duration_s=0.6)
+        env.reset(seed=1)
+        rewards = [env.step([0.2])[1] for _ in range(10)]
+        history = env.history
+        self.assertEqual(history["reward"].tolist(), rewards)
+        self.assertEqual(history["target"].tolist(), list(env.target[1:11]))
+        numpy.testing.assert_allclose(history["reward"],
+                                      -100.0 * abs(history["contraction_ratio"] - history["target"]), atol=1e-12)
+        env.reset(seed=1)
+        self.assertEqual(len(env.history["time_s"]), 0)
+
+    def test_rigs_that_lift_no_load_are_refused(self):
+        for kind in ("pair", "lever", "held_length"):
+            with self.assertRaisesRegex(ValueError, f"hanging load; this rig's mechanics are {kind}"):
+                mckibben.Env(rig={"joint": {"highest_angle": "100 deg"} if kind == "lever" else {},
+                                  "mechanics": {"kind": kind}})
+
     def test_nothing_is_done_out_of_order(self):
         env = mckibben.Env(duration_s=0.036)
         with self.assertRaises(RuntimeError):
@@ -230,6 +248,7 @@ class VectorEnv(unittest.TestCase):
         for bad in ([0.0], [0.0, float("nan")], [0.0] * 3):
             with self.assertRaises(ValueError):
                 envs.step(bad)
+        self.assertLess(len(repr(mckibben.VectorEnv(64).action_space)), 60)
         with self.assertRaises(ValueError):
             mckibben.VectorEnv(0)
         with self.assertRaises(ValueError):

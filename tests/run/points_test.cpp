@@ -6,6 +6,7 @@
 
 #include <sim/data/judged.hpp>
 #include <sim/run/course.hpp>
+#include <sim/run/follow.hpp>
 
 namespace mckibben::run {
 namespace {
@@ -32,6 +33,47 @@ TEST(Points, AreReadAtTheEndOfTheirTime) {
   EXPECT_EQ(*course.drives[1].contraction_ratio, 0.0);
   EXPECT_EQ(course.time_s[2], 2.0);
   EXPECT_EQ(*course.drives[2].contraction_ratio, 0.1);
+}
+
+/// A branch of a loop that falls from 4 bar in steps of 1 bar.
+domain::Measurement falling() {
+  domain::Measurement measured;
+  measured.point_s = 4.0;
+  for (int k = 0; k < 5; ++k) {
+    measured.time_s.push_back(4.0 * k);
+    measured.give("muscle_pressure").push_back(1e5 * (4 - k));
+    measured.take("contraction").push_back(0.0);
+  }
+  return measured;
+}
+
+TEST(Points, TheFirstPressureIsReachedFromNoneAsFastAsOthers) {
+  const Course course = course_of(falling(), plant::Rig{});
+  ASSERT_EQ(course.rows.size(), 5u);
+  EXPECT_EQ(course.time_s[course.rows[0]], 0.0);
+  EXPECT_EQ(course.time_s[0], -10.0);  // 1 bar in 2 s, and 2 s as they rest at each point
+  EXPECT_EQ(*course.drives[0].muscle_pressure_Pa, 0.0);
+  EXPECT_EQ(course.time_s[1], -2.0);
+  EXPECT_EQ(*course.drives[1].muscle_pressure_Pa, 4e5);
+  EXPECT_EQ(*course.drives[course.rows[0]].muscle_pressure_Pa, 4e5);
+}
+
+/// As people publish loops, branch by branch: a muscle that was let go at full pressure swings over the point
+/// where the rising branch ends.
+TEST(Points, AFallingBranchBeginsWhereTheRisingOneEnds) {
+  plant::Rig rig;
+  rig.joint.guide_damping_N_s_per_m = 0.0;
+  domain::Measurement up = falling(), down = falling();
+  std::ranges::reverse(up.columns.front().values);
+  ASSERT_TRUE(up.columns.front().given);
+  const Recording rising = follow(rig, 5.0, course_of(up, rig)),
+                  fall = follow(rig, 5.0, course_of(down, rig));
+  ASSERT_EQ(rising.samples.size(), 5u);
+  const auto friction_N = [](const Sample& sample) { return sample.friction_force_N; };
+  EXPECT_NEAR(fall.samples.front().state.joint.contraction_ratio,
+              rising.samples.back().state.joint.contraction_ratio, 2e-5);
+  EXPECT_GT(std::abs(friction_N(rising.samples.back())), 5.0);
+  EXPECT_NEAR(friction_N(fall.samples.front()), friction_N(rising.samples.back()), 0.5);
 }
 
 TEST(Points, EvenStepsAreNoGrainOfTheSensor) {

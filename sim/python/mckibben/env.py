@@ -61,7 +61,9 @@ except ImportError:
             return self.contains(x)
 
         def __repr__(self):
-            return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
+            low, high = (end.flat[0] if end.size and (end == end.flat[0]).all() else end
+                         for end in (self.low, self.high))
+            return f"Box({low}, {high}, {self.shape}, {self.dtype})"
 
 try:
     from gymnasium.vector import AutoresetMode
@@ -111,7 +113,12 @@ class _Task:
 
     @staticmethod
     def made(rig):
-        return rig if isinstance(rig, Rig) else Rig(rig)
+        rig = rig if isinstance(rig, Rig) else Rig(rig)
+        kind = rig.to_dict().get("mechanics", {}).get("kind", "hanging_load")
+        if kind != "hanging_load":
+            raise ValueError(f"rig: an environment is one muscle that lifts a hanging load; this rig's mechanics are {kind}. "
+                             "Step it with Ride, or run a Scenario")
+        return rig
 
     def draw(self, random, options):
         """Rig, load [kg] and target of an episode."""
@@ -169,7 +176,7 @@ class _Episode:
 class Env(Base):
     """Follow a target with an unknown load: an episode is one run.
 
-    action       shape (1,), -1 to 1: the command, from the lower to the upper end of the valve's line
+    action       shape (1,), -1 to 1: the command, from the lower to the upper end of the valve's line; beyond it is cut
     observation  shape (4,): contraction ratio as the encoder counts it, its speed by these counts over the last
                  tick [1/s], the target at this tick [1], the command of the last tick (-1 to 1)
     reward       minus the absolute error of the counted contraction ratio, in per cent
@@ -196,6 +203,14 @@ class Env(Base):
         self.action_space, self.observation_space = self.task.action_space, self.task.observation_space
         self.loads_kg = self.task.loads_kg
         self.episode = self.ride = None
+        self.rows = []
+
+    @property
+    def history(self):
+        """The episode so far, a numpy array for each key, to be plotted: time_s, target, contraction_ratio as counted,
+        command in the rig's unit, reward; a row for each step."""
+        keys = ("time_s", "target", "contraction_ratio", "command", "reward")
+        return dict(zip(keys, numpy.array(self.rows, dtype=float).reshape(-1, len(keys)).T))
 
     @property
     def rig(self):
@@ -213,6 +228,7 @@ class Env(Base):
         super().reset(seed=seed)
         self.episode = _Episode(self.task, self.np_random, options or {})
         self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
+        self.rows = []
         return self.episode.begin(self.ride.reading.contraction_ratio), dict(self.episode.info)
 
     def step(self, action):
@@ -234,6 +250,7 @@ class Env(Base):
             terminated, info["failure"] = True, str(failure)
         observation, reward, truncated = self.episode.arrive(self.ride.reading.contraction_ratio)
         info.update(time_s=self.ride.time_s, true_contraction_ratio=float(self.ride.state[0]))
+        self.rows.append((self.ride.time_s, self.episode.target[self.episode.tick], self.episode.last, command, reward))
         return observation, reward, terminated, truncated, info
 
     def render(self):
