@@ -91,8 +91,10 @@ struct Moved {
 
   /// Further off than it is stated to be.
   bool exceeds() const { return std::abs(deviations) > thresholds.parameter.most_deviations && !of_effect(); }
-  /// Worth telling: further than a data sheet promises.
-  bool notable() const { return std::abs(deviations) > thresholds.parameter.notable; }
+  /// Worth telling: further than a data sheet promises, or the size of an effect that is another one.
+  bool notable() const {
+    return std::abs(deviations) > thresholds.parameter.notable || (of_effect() && !fitted.holds(nominal));
+  }
   bool of_effect() const { return fitted.name.find("effects.") != std::string::npos; }
 };
 
