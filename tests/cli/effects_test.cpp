@@ -105,7 +105,7 @@ TEST_F(EffectsVerb, SaysWhatATermIsThatIsNoEffect) {
   const auto said = run("effects 'Smith predictor'");
   EXPECT_EQ(said.status, 64);
   EXPECT_TRUE(
-      holds(said.err, "Smith predictor is not an effect; here: model_inverse_feedback", "your_words.md"));
+      holds(said.err, "Smith predictor is not an effect; here: `model_inverse_feedback`", "your_words.md"));
   EXPECT_TRUE(holds(run("effects hysterisis").err, "unknown effect hysterisis; did you mean hysteresis?"));
 }
 

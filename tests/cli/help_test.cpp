@@ -115,7 +115,7 @@ TEST(DidYouMean, ForVerbsOptionsAndValues) {
            {"schema senario", "unknown kind senario; did you mean scenario?"},
            {"schema rig --format yml", "unknown format yml; did you mean yaml?"},
            {"effects muscle_leek", "unknown effect muscle_leek; did you mean muscle_leak?"},
-           {"effects lqr", "unknown effect lqr (known: "},
+           {"effects lqr", "lqr is not an effect; here: `linearise --lqr`"},
        }) {
     const Said said = mckibben(slip.arguments, scratch);
     EXPECT_EQ(said.status, 64) << slip.arguments;
@@ -134,9 +134,9 @@ TEST(DidYouMean, ForTermsOfTheField) {
              "schema: mckibben-rig/1\neffects:\n  leak: {}\n  hysteresis: {}\n  creep: {}\n  Coulomb: {}\n"
              "  stribeck: {}\n  dead-band: {}\n");
   EXPECT_TRUE(holds(mckibben("check rig.yaml", scratch).err, "did you mean muscle_leak?",
-                    "did you mean bladder_hysteresis or valve_hysteresis?", "did you mean bladder_creep?",
-                    "did you mean guide_friction?", "did you mean speed_dependent_friction?",
-                    "did you mean valve_dead_band?"));
+                    "did you mean bladder_hysteresis or valve_hysteresis or isometric_hysteresis?",
+                    "did you mean bladder_creep?", "did you mean guide_friction?",
+                    "did you mean speed_dependent_friction?", "did you mean valve_dead_band?"));
   write_text(scratch / "scenario.yaml",
              "schema: mckibben-scenario/1\nloads: [9 kg]\nduration: 1 s\ntarget: {kind: steps, moves: []}\n"
              "controllers:\n  - {kind: PID}\n  - {kind: lqr}\n");
