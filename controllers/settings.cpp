@@ -11,8 +11,7 @@ std::unique_ptr<Controller> make(const Settings& settings, const Knowledge& know
 }
 
 const CommandFilter* filter_of(const Settings& settings) {
-  const auto* alone = std::get_if<StaticInverseSettings>(&settings);
-  const auto* terms = alone != nullptr ? &alone->limits : part_of<CommandTerms>(settings);
+  const auto* terms = part_of<CommandTerms>(settings);
   return terms != nullptr && terms->command_filter ? &*terms->command_filter : nullptr;
 }
 

@@ -34,7 +34,7 @@ std::unique_ptr<Controller> StaticInverseSettings::make(const Knowledge& knowled
   model.rest_radius_m = rest_radius_m.value_or(model.rest_radius_m);
   model.braid_angle_rad = braid_angle_rad.value_or(model.braid_angle_rad);
   model.end_correction = end_correction.value_or(model.end_correction);
-  return kept_safe(limits, knowledge, [&](const Knowledge& known) {
+  return kept_safe(*this, knowledge, [&](const Knowledge& known) {
     return std::make_unique<StaticInverse>(assumed_load_kg * gravity_m_per_s2, model, known);
   });
 }

@@ -14,14 +14,13 @@
 namespace mckibben::controllers {
 
 /// P = m g / (pi r0^2 [a (1 - k e)^2 - b]), a = 3/tan^2 alpha0, b = 1/sin^2 alpha0.
-struct StaticInverseSettings {
+struct StaticInverseSettings : SafetyTerms {
   static constexpr std::string_view kind = "static_inverse";
   std::string name{kind};
   double assumed_load_kg = 0.0;
   std::optional<double> rest_radius_m = std::nullopt;
   std::optional<double> braid_angle_rad = std::nullopt;
   std::optional<double> end_correction = std::nullopt;
-  SafetyTerms limits{};
 
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
@@ -35,7 +34,7 @@ struct StaticInverseSettings {
           "braid angle of its model, alpha0; the rig's if absent");
     visit("end_correction", self.end_correction, "1", 1.0, 2.5,
           "end correction of its model, k; the rig's if absent");
-    SafetyTerms::fields(self.limits, visit);
+    SafetyTerms::fields(self, visit);
   }
 };
 

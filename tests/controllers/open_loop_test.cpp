@@ -192,8 +192,9 @@ TEST(Safety, OpenLoopsKeepTheSpeedOfTheCurrentAndTheHeightOfTheTarget) {
   keeps_its_limits(unslowed, unslowed);
   auto slowed = with_planted_load<OpenLoopLimitedSettings>();
   keeps_its_limits(slowed, slowed);
-  StaticInverseSettings blind{.assumed_load_kg = planted_load_kg};
-  keeps_its_limits(blind, blind.limits);
+  StaticInverseSettings blind;
+  blind.assumed_load_kg = planted_load_kg;
+  keeps_its_limits(blind, blind);
 }
 
 /// Weighs a load that follows the current in a straight line; every so often the counter jumps, or it stands

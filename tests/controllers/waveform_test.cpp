@@ -98,7 +98,9 @@ TEST(RecordedCurrent, GivesEachTickItsSampleThenTheLast) {
 
 TEST(Settings, NameIsTheKindUnlessGiven) {
   EXPECT_EQ(name_of(PidSettings{}), "pid");
-  EXPECT_EQ(name_of(StaticInverseSettings{.name = "blind", .assumed_load_kg = 16.0}), "blind");
+  StaticInverseSettings named;
+  named.name = "blind";
+  EXPECT_EQ(name_of(named), "blind");
 }
 
 }  // namespace

@@ -86,8 +86,10 @@ domain::Scenario scenario() {
   sine.amplitude = {0.02, false};
   sine.period_s = 1.5;
   all.target = sine;
-  all.controllers = {controllers::StaticInverseSettings{.name = "right", .assumed_load_kg = 16.138},
-                     controllers::StaticInverseSettings{.name = "too_much", .assumed_load_kg = 60.0}};
+  controllers::StaticInverseSettings right, too_much;
+  right.name = "right", right.assumed_load_kg = 16.138;
+  too_much.name = "too_much", too_much.assumed_load_kg = 60.0;
+  all.controllers = {right, too_much};
   all.robustness.rigs = 12;
   return all;
 }
