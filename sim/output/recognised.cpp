@@ -110,7 +110,7 @@ std::string rig_yaml(const Recognised& found, const std::string& base) {
       "# The rig as far as its tables say, written by `mckibben import`.\n{}"
       "# What is not said here is the base's: mckibben schema rig --format yaml shows every value.\n"
       "schema: {}\nbase: {}\n",
-      how_to_go_on, input::rig_schema, base);
+      how_to_go_on, input::rig_schema, domain::yaml_scalar(base));
   std::string section, sensor;
   for (const Setting& each : found.rig) {
     const std::size_t dot = each.key.find('.');

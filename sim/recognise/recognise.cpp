@@ -293,12 +293,17 @@ class Recogniser {
           {fmt::format("{:.6g} ms", 1e3 * std::clamp(step_s_, shortest_tick_s, longest_tick_s)), clock_});
   }
 
+  /// What commands a valve; null if nothing does.
+  const ColumnGuess* command() const {
+    const ColumnGuess* drive = drive_of(first_map());
+    return drive != nullptr && drive->quantity->key != "muscle_pressure" ? drive : nullptr;
+  }
+
   /// Whether the commands' unit is none of the known rig's valve.
   bool is_commanded_otherwise() const {
-    const ColumnGuess* command = drive_of(first_map());
-    return command != nullptr && command->quantity->key != "muscle_pressure" && !command->unit.open() &&
-           !known_.command_unit.empty() &&
-           !input::unit_problem(command->unit.value, known_.command_unit).empty();
+    const ColumnGuess* of = command();
+    return of != nullptr && !of->unit.open() && !known_.command_unit.empty() &&
+           !input::unit_problem(of->unit.value, known_.command_unit).empty();
   }
 
   /// Time between rows that have no stamps.
@@ -310,8 +315,8 @@ class Recogniser {
   }
 
   void valve() {
-    const ColumnGuess* command = drive_of(first_map());
-    if (command == nullptr || command->quantity->key == "muscle_pressure") return;
+    const ColumnGuess* command = this->command();
+    if (command == nullptr) return;
     Range range{1e300, -1e300};
     for (std::size_t i = 0; i < all_.runs.size(); ++i)
       if (const Values* values = column_of(all_.tables[i], command->column.value)) {

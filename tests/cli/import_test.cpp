@@ -150,6 +150,10 @@ TEST_F(Import, TakesARigThatIsKnownAndLeavesTablesAlone) {
   const auto replayed = input::Json::parse(mckibben("replay sub/mine --json", scratch_).out);
   EXPECT_LT(replayed.at("runs").at(0).at("gaps").at(0).at("rmse").get<double>(), 1e-3);
 
+  write_text(scratch_ / "my: rig #1.yaml", another_rig);
+  EXPECT_EQ(mckibben("import bench/load_5kg.csv --rig 'my: rig #1.yaml' --out other", scratch_).status, 0);
+  EXPECT_TRUE(holds(read_text(scratch_ / "other/rig.yaml"), R"(base: "../my: rig #1.yaml")"));
+
   EXPECT_EQ(mckibben("import bench/load_5kg.csv --out bench", scratch_).status, 74) << "tables are there";
   EXPECT_EQ(mckibben("import bench/none.csv", scratch_).status, 66);
   EXPECT_EQ(mckibben("import rig.yaml", scratch_).status, 65);
