@@ -18,7 +18,6 @@
 #include <sim/diagnose/parameter.hpp>
 #include <sim/input/field_list.hpp>
 #include <sim/input/hypothesis_file.hpp>
-#include <sim/input/suggest.hpp>
 #include <sim/input/synonyms.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/effect_pictures.hpp>
@@ -229,19 +228,16 @@ bool is_called(const Entry& entry, std::string_view name) {
 /// Takes names of effects, and terms of the field that are some. Of its other terms it says what they are
 /// here.
 CLI::Validator known_effect() {
-  const CLI::Validator by_name = one_of("effect", names_of_effects());
-  const auto check = [by_name](std::string& text) -> std::string {
+  const auto check = [](std::string& text) -> std::string {
     const auto all = catalogue();
     if (std::ranges::any_of(all, [&](const Entry& entry) { return is_called(entry, text); })) return {};
     if (const input::Synonym* term = input::synonym(text))
       return fmt::format("{} is not an effect; here: {} (docs/your_words.md)", text, term->here);
-    std::vector<std::string_view> words;
-    for (const Entry& entry : all) words.push_back(entry.name);
-    for (const input::Synonym& term : input::synonyms()) words.push_back(term.term);
-    const std::string meant = input::did_you_mean(text, words);
-    return meant.empty() ? by_name(text) : fmt::format("unknown effect {}{}", text, meant);
+    std::vector<std::string> terms;  // the page is read only where somebody is at a loss
+    for (const input::Synonym& term : input::synonyms()) terms.push_back(term.term);
+    return one_of("effect", names_of_effects(), terms)(text);
   };
-  return {check, by_name.get_description()};
+  return {check, one_of("effect", names_of_effects()).get_description()};
 }
 
 struct EffectsOptions : Options {

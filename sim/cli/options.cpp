@@ -23,9 +23,11 @@ std::string is_seed(const std::string& text) {
   return fmt::format("{} is not a whole number from 0 to 18446744073709551615", text);
 }
 
-std::string not_among(std::string_view kind, std::string_view word, const std::vector<std::string>& words) {
-  const std::vector<std::string_view> known(words.begin(), words.end());
+std::string not_among(std::string_view kind, std::string_view word, const std::vector<std::string>& words,
+                      const std::vector<std::string>& also_meant = {}) {
+  std::vector<std::string_view> known(words.begin(), words.end());
   if (std::find(known.begin(), known.end(), word) != known.end()) return "";
+  known.insert(known.end(), also_meant.begin(), also_meant.end());
   constexpr std::size_t shortest = 3;  // less is a letter or two, near to anything
   return fmt::format("unknown {} {}{}", kind, word,
                      word.size() < shortest ? "" : input::did_you_mean(word, known));
@@ -99,9 +101,10 @@ void add_measured(CLI::App& verb, std::string& path) {
   add_input(verb, path, "dataset", "Data set: its dataset.yaml or the folder", "DATASET");
 }
 
-CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& words) {
-  const auto check = [kind, words](std::string& text) {
-    const std::string wrong = not_among(kind, text, words);
+CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& words,
+                      const std::vector<std::string>& also_meant) {
+  const auto check = [kind, words, also_meant](std::string& text) {
+    const std::string wrong = not_among(kind, text, words, also_meant);
     return wrong.empty() ? wrong : fmt::format("{} (known: {})", wrong, join(words));
   };
   std::string list;

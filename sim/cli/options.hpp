@@ -50,8 +50,10 @@ void add_hypotheses_option(CLI::App& verb, std::vector<std::string>& files, cons
 void add_input(CLI::App& verb, std::string& path, const char* name, const char* what, const char* type);
 void add_measured(CLI::App& verb, std::string& path);
 
-/// A value that must be one of these words, each a `kind`; help shows them as {a,b}.
-CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& words);
+/// A value that must be one of these words, each a `kind`; help shows them as {a,b}. Misspelt it may also be
+/// meant for one of others.
+CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& words,
+                      const std::vector<std::string>& also_meant = {});
 
 /// A number within these limits; anything else is a usage error that names them.
 CLI::Validator from_to(double lowest, double highest);
