@@ -78,7 +78,7 @@ void Problems::add(Problem problem) {
   if (problem.severity != Severity::warning) ++errors_;
   if (problem.severity == Severity::missing_file) ++missing_;
   const auto key = [](const Problem& one) {
-    return std::tie(one.severity, one.file, one.place.line, one.place.column, one.message);
+    return std::tie(one.place.line, one.place.column, one.severity, one.message, one.file);
   };
   if (std::ranges::any_of(list_, [&](const Problem& one) { return key(one) == key(problem); })) return;
   if (list_.size() < most_shown)
