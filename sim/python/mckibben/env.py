@@ -3,7 +3,6 @@
 Gymnasium is not needed. Where it is installed, Env and VectorEnv are its environments, with ids: Track-v0, and
 TrackDrawn-v0, whose rigs and targets are drawn.
 """
-import enum
 import math
 
 import numpy
@@ -16,66 +15,14 @@ try:
     Base, Box = gymnasium.Env, gymnasium.spaces.Box
 except ImportError:
     gymnasium = None
-
-    class Base:
-        """What Env has of Gymnasium's Env: chance, by a seed."""
-        _np_random = None
-        spec = None
-
-        @property
-        def np_random(self):
-            """Where all chance comes from, a numpy.random.Generator."""
-            if self._np_random is None:
-                self._np_random = numpy.random.default_rng()
-            return self._np_random
-
-        @property
-        def unwrapped(self):
-            """Itself."""
-            return self
-
-        def reset(self, *, seed=None, options=None):
-            if seed is not None:
-                self._np_random = numpy.random.default_rng(seed)
-
-    class Box:
-        """Numbers between `low` and `high`: what there is of Gymnasium's Box here."""
-
-        def __init__(self, low, high, dtype=numpy.float32):
-            self.low = numpy.asarray(low, dtype)
-            self.high = numpy.asarray(high, dtype)
-            self.shape, self.dtype = self.low.shape, numpy.dtype(dtype)
-            self._random = numpy.random.default_rng()
-
-        def seed(self, seed=None):
-            self._random = numpy.random.default_rng(seed)
-
-        def sample(self):
-            return self._random.uniform(self.low, self.high).astype(self.dtype)
-
-        def contains(self, x):
-            x = numpy.asarray(x)
-            return x.shape == self.shape and bool(numpy.all((x >= self.low) & (x <= self.high)))
-
-        def __contains__(self, x):
-            return self.contains(x)
-
-        def __repr__(self):
-            low, high = (end.flat[0] if end.size and (end == end.flat[0]).all() else end
-                         for end in (self.low, self.high))
-            return f"Box({low}, {high}, {self.shape}, {self.dtype})"
+    from .without_gymnasium import Base, Box
 
 try:
     from gymnasium.vector import AutoresetMode
     from gymnasium.vector import VectorEnv as VectorBase
 except ImportError:
     VectorBase = Base
-
-    class AutoresetMode(enum.Enum):
-        """When a member whose episode has ended is reset, as Gymnasium 1.1 names it."""
-        NEXT_STEP = "NextStep"
-        SAME_STEP = "SameStep"
-        DISABLED = "Disabled"
+    from .without_gymnasium import AutoresetMode
 
 
 def _one_of(several, random):
@@ -122,7 +69,9 @@ class _Task:
 
     def draw(self, random, options):
         """Rig, load [kg] and target of an episode."""
-        rig = self.made(_one_of(self.rig, random))
+        rig = _one_of(self.rig, random)
+        if callable(self.rig):
+            rig = self.made(rig)
         target = _one_of(self.target, random)
         load_kg = float(options.get("load_kg", random.uniform(*self.loads_kg)))
         if self.fixed is not None:
