@@ -1,6 +1,7 @@
 // The verb `control`: the controller of a scenario drives a bench in real time, and what happens is recorded
 // as a data set.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -21,7 +22,9 @@
 #include <sim/domain/number.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
+#include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/unfinished.hpp>
 #include <sim/run/briefing.hpp>
@@ -41,10 +44,10 @@ struct ControlOptions : Options {
   std::string scenario, device = "simulated", port;
   bench::Wiring wiring;
   int most_missed_ticks = bench::LoopPlan{}.most_missed_ticks;
-  bool dry_run = false;
+  bool dry_run = false, verbose = false;
 };
 
-/// Why a scenario is none that one controller can drive under one load; empty if it is.
+/// Why a scenario is none that one controller can drive under one load, behind the key; empty if it is.
 std::string unfit(const Scenario& scenario) {
   if (const std::string why = input::no_load(scenario.rig); !why.empty()) return "rig: " + why;
   if (scenario.loads_kg.size() != 1) return "loads: one load hangs on a bench; name it alone";
@@ -62,12 +65,39 @@ std::string unfit(const Scenario& scenario) {
   return "";
 }
 
+/// Says at its key why it is unfit; of a list with one entry at that. Throws BadInput.
+void refuse_at_key(const std::string& path, const std::string& why) {
+  const input::YamlFile file = input::load_yaml(path);
+  const input::Node* node = file.root.find(why.substr(0, why.find(':')));
+  if (node != nullptr && node->children.size() == 1 && node->kind == input::Node::Kind::list)
+    node = &node->children.front();
+  input::Problems problems;
+  problems.error(file.source, node != nullptr ? node->place : file.root.place, why);
+  problems.raise();
+}
+
+/// The rig to be believed of a simulated bench: the base, where the scenario's rig only adds effects to it.
+/// They are the bench's own, and diagnosed with them it lacks nothing. Empty where there is none.
+std::string believed_rig(const std::string& scenario) {
+  const input::YamlFile file = input::load_yaml(scenario);
+  const input::Node* rig = file.root.find("rig");
+  if (rig == nullptr || rig->kind != input::Node::Kind::map || rig->find("effects") == nullptr) return "";
+  const bool only_effects = std::ranges::all_of(
+      rig->children, [](const auto& child) { return child.key == "base" || child.key == "effects"; });
+  if (!only_effects) return "";
+  const input::Node* base = rig->find("base");
+  const std::string name = base != nullptr ? base->text : "thesis";
+  if (std::ranges::find(input::shipped_rigs(), name) != input::shipped_rigs().end()) return name;
+  return (file.source.folder() / name).lexically_normal().string();
+}
+
 /// Why the options do not go together; empty if they do.
 std::string misplaced(const ControlOptions& options) {
   if (options.device != "simulated" && options.port.empty())
     return fmt::format("--device {} needs its --port", options.device);
   if (options.device == "simulated" && !options.port.empty())
     return "--port is of a device: say which, --device serial or --device comedi";
+  if (options.verbose && !options.dry_run) return "--verbose is of --dry-run: say both";
   if (options.device != "comedi" && options.wiring != bench::Wiring{})
     return "--output, --full-scale, --counter and --encoder are of --device comedi";
   return "";
@@ -207,11 +237,36 @@ std::string document_of(const Scenario& scenario, const ControlOptions& options,
   return document.dump(2) + "\n";
 }
 
+/// "4 to 12.31 mA, one every 12 ms, the fastest change 20 mA/s".
+std::string sent(const Scenario& scenario, const bench::Recorded& recorded) {
+  if (recorded.rows.empty()) return "";
+  double lowest = recorded.rows.front().current_mA, highest = lowest, fastest = 0.0;
+  for (std::size_t k = 1; k < recorded.rows.size(); ++k) {
+    const double command = recorded.rows[k].current_mA;
+    lowest = std::min(lowest, command);
+    highest = std::max(highest, command);
+    fastest = std::max(fastest, std::abs(command - recorded.rows[k - 1].current_mA));
+  }
+  const auto unit = name_of(scenario.rig.command_unit());
+  return fmt::format("{} commands of {:.4g} to {:.4g} {}, one every {:g} ms, the largest change {:.4g} {}\n",
+                     recorded.rows.size(), lowest, highest, unit, 1e3 * scenario.rig.tick_s, fastest, unit);
+}
+
 int show(const ControlOptions& options, const Scenario& scenario, const bench::Recorded& recorded) {
+  constexpr std::size_t ends = 5;
   std::string text = fmt::format("  tick    counts {:>11}   (the bench is simulated; nothing is sent)\n",
                                  column_of(scenario));
-  for (const auto& row : recorded.rows)
+  const std::size_t rows = recorded.rows.size();
+  const bool all = options.verbose || rows <= 2 * ends + 1;
+  for (std::size_t k = 0; k < rows; ++k) {
+    if (!all && k == ends) {
+      text += fmt::format("   ...   {} more: --verbose\n", rows - 2 * ends);
+      k = rows - ends;
+    }
+    const bench::Row& row = recorded.rows[k];
     text += fmt::format("{:6} {:9} {:11.4f}\n", row.tick, row.counts, row.current_mA);
+  }
+  text += sent(scenario, recorded);
   print(options, {document_of(scenario, options, recorded), text + text_of(scenario, recorded)});
   return recorded.stopped.empty() ? done : failure;
 }
@@ -244,8 +299,10 @@ int on_bench(const ControlOptions& options, const Scenario& scenario, const run:
     const std::string document = document_of(scenario, options, recorded), text = text_of(scenario, recorded);
     job.write("control.json", document);
     job.write("table.txt", text);
-    const int status = job.finish({document, text}, recorded.stopped.empty() ? done : failure,
-                                  "diagnose " + job.where().string());
+    const std::string believed = options.device == "simulated" ? believed_rig(options.scenario) : "";
+    const int status =
+        job.finish({document, text}, recorded.stopped.empty() ? done : failure,
+                   "diagnose " + job.where().string() + (believed.empty() ? "" : " --rig " + believed));
     rows.remove();
     return recorded.by_user && status == failure ? static_cast<int>(interrupted) : status;
   } catch (const output::CannotWrite&) {
@@ -263,10 +320,7 @@ int control(const ControlOptions& options) {
   std::vector<input::Problem> warnings;
   const Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), warnings);
   for (const auto& warning : warnings) say(input::to_text(warning));
-  if (const std::string why = unfit(scenario); !why.empty()) {
-    say(fmt::format("{}: {}", options.scenario, why));
-    return bad_input;
-  }
+  if (const std::string why = unfit(scenario); !why.empty()) refuse_at_key(options.scenario, why);
   if (options.wiring.full_scale_V && scenario.rig.command_unit() == plant::CommandUnit::V) {
     say("--full-scale is of a stage behind the output; this rig's valve takes its volts as they are");
     return usage_error;
@@ -300,6 +354,8 @@ void add_control(CLI::App& app, Asked& asked) {
              "Ticks in a row that may be missed before the watchdog vents (default: 3)");
   verb.add_flag("--dry-run", options.dry_run,
                 "Show what would be sent, at a simulated bench; nothing is opened");
+  verb.add_flag("--verbose", options.verbose,
+                "Of --dry-run: show every command, not the first and last five");
   verb.footer(
       "Examples:\n"
       "  mckibben control my.yaml --dry-run\n"

@@ -262,11 +262,17 @@ class Comparing {
 
   void warn() {
     std::vector<std::string> all;
-    for (const auto& run : result_.runs) {
+    for (std::size_t i = 0; i < result_.runs.size(); ++i) {
+      const TrackedRun& run = result_.runs[i];
       const std::string& id = run.id;
       if (run.unreachable.any()) all.push_back(data::warning_of_run(id, run.unreachable.text()));
       if (const std::string stood = limit_warning(run, scenario_.rig); !stood.empty())
         all.push_back(data::warning_of_run(id, stood));
+      if (run.followed())
+        if (const std::string off =
+                missed_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig);
+            !off.empty())
+          all.push_back(data::warning_of_run(id, off));
       if (moves(run.recording.left_speed, scenario_.rig) && scenario_.skip_s.value_or(0.0) == 0.0)
         all.push_back(data::warning_of_run(id, still_moves(run.recording.left_speed, scenario_.rig)));
       for (const auto& doubt : doubts(run.recording)) all.push_back(data::warning_of_run(id, doubt));

@@ -1,6 +1,8 @@
 // Words for limits and tunings; see the header.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,8 @@ namespace {
 
 constexpr double worth_saying = 0.01;
 constexpr double no_gain = 0.95;  // of the cost without feedback
+constexpr double missed = 0.2;    // of the target's range; five_loads ends within 0.17 of it
+constexpr double rests_s = 0.5;   // at the end, before it is judged there
 
 /// Without the DAC's rounding, which would fill the text with digits.
 std::string command(double value, const plant::Rig& rig) {
@@ -58,6 +62,18 @@ std::string limit_warning(const Metrics& metrics, const std::optional<controller
                      cause(low, *limits, rig));
 }
 
+/// "18.4 mm below".
+std::string off_target(double error, const plant::Rig& rig) {
+  return fmt::format("{:.1f} mm {}", 1e3 * std::abs(error) * rig.muscle.rest_length_m,
+                     error > 0.0 ? "above" : "below");
+}
+
+bool rests_at_the_end(const std::vector<double>& target, double tick_s) {
+  const auto ticks = static_cast<std::ptrdiff_t>(rests_s / tick_s);
+  return std::ssize(target) > ticks && std::all_of(target.end() - ticks, target.end(),
+                                                   [&](double ratio) { return ratio == target.back(); });
+}
+
 }  // namespace
 
 double share_at_limit(const TrackedRun& run) {
@@ -101,6 +117,41 @@ std::string limit_warning(const TrackedRun& run, const plant::Rig& rig) {
         "co_contraction, leaves the angle nothing, or both need more than the valves have",
         plant::command_key(rig), 100.0 * run.joint->at_limit);
   return limit_warning(run.metrics, run.limits, rig);
+}
+
+std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
+                           const plant::Rig& rig) {
+  const auto* terms = controllers::part_of<controllers::CalibratedSettings>(settings);
+  const auto* open = std::get_if<controllers::OpenLoopSettings>(&settings);
+  const bool to_one_point = open != nullptr && open->mode == controllers::OpenLoopMode::triangle;
+  if (terms == nullptr || to_one_point || rig.has_angle() || !run.failure.empty() ||
+      run.recording.samples.empty() || !rests_at_the_end(wanted.ratios, rig.tick_s))
+    return "";
+  const auto [lowest, highest] = std::ranges::minmax(wanted.ratios);
+  const auto is_off = [&, range = highest - lowest](double error) {
+    return std::abs(error) > missed * range;
+  };
+  if (lowest == highest || !is_off(run.metrics.final_error)) return "";
+
+  std::string text = "it ends " + off_target(run.metrics.final_error, rig) + " its target";
+  if (const double start =
+          run.recording.samples.front().state.joint.contraction_ratio - wanted.ratios.front();
+      is_off(start))
+    text += fmt::format(" and began {} target.start, to which no feedback brings it", off_target(start, rig));
+  const auto& found = run.recording.findings;
+  const auto outside = controllers::value_of(found, "ticks_outside_calibrated_speed");
+  if (const auto& range = terms->model.range; outside > 0.0 && !terms->extrapolate_target)
+    text += fmt::format(
+        "; at {:.0f} of {} ticks its command should change slower or faster than those of the calibration, "
+        "{:.3g} to {:.3g} {}/s, and it takes the nearest: extrapolate_target: true, or calibrate with such "
+        "commands",
+        outside, wanted.ratios.size(), range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
+        name_of(rig.command_unit()));
+  const double believed_kg = terms->assumed_load_kg.value_or(controllers::value_of(found, "believed_load"));
+  if (std::abs(believed_kg - run.load_kg) > controllers::weighing_tolerance * run.load_kg)
+    text += fmt::format("; it takes the load for {:.4g} kg: assumed_load: {} kg", believed_kg,
+                        domain::write_number(run.load_kg));
+  return text + "; feedback helps (kind: feedforward_pid), and so does a calibration of this rig";
 }
 
 bool gained_nothing(const TunedController& tuned) {

@@ -27,6 +27,11 @@ std::string counted_words(const domain::Scenario& scenario, const Comparison& co
 /// The same of one run, with what would help: for a warning. Empty unless it stood there `mostly`.
 std::string limit_warning(const TrackedRun& run, const plant::Rig& rig);
 
+/// Of an open loop with a calibration that ends off a resting target by more than a fifth of the target's
+/// range: by how much, the likely causes, and the keys to write. Empty if it does not.
+std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
+                           const plant::Rig& rig);
+
 /// True if the tuned gains follow the target no better than no feedback at all.
 bool gained_nothing(const TunedController& tuned);
 

@@ -1,5 +1,6 @@
 // The verb control: a dry run shows the run that is simulated; what a simulated bench leaves is a data set
 // that replays; what cannot drive a bench is refused.
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,38 @@ TEST(Control, ADryRunShowsWhatWouldBeSentAndWritesNothing) {
   EXPECT_TRUE(holds(said.out, "nothing is sent", "b: 50 of 50 ticks of 12 ms"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
   EXPECT_EQ(said.out, mckibben("control b.yaml --dry-run", scratch).out);
+}
+
+TEST(Control, ADryRunIsASummaryUnlessAskedForAll) {
+  const Scratch scratch;
+  write_text(scratch / "b.yaml", on_bench);
+  const auto lines = [](const Said& said) { return std::ranges::count(said.out, '\n'); };
+  const Said brief = mckibben("control b.yaml --dry-run", scratch);
+  const Said all = mckibben("control b.yaml --dry-run --verbose", scratch);
+  EXPECT_TRUE(holds(brief.out, "\n     4 ", "\n   ...   40 more: --verbose\n    45 ", "\n    49 "));
+  EXPECT_TRUE(holds(brief.out, "50 commands of 3.999 to ", " mA, one every 12 ms, the largest change "));
+  EXPECT_EQ(lines(brief) + 39, lines(all)) << "ten rows and a line that says so, in place of fifty";
+  EXPECT_FALSE(holds(all.out, "..."));
+  EXPECT_EQ(mckibben("control b.yaml --verbose", scratch).status, 64);
+}
+
+TEST(Control, TheNextCommandLeavesOutWhatTheSimulatedBenchAdds) {
+  const Scratch scratch;
+  const auto next = [&](const std::string& rig) {
+    std::string text(on_bench);
+    const std::string from = "{base: thesis, settling_time: 0.06 s}";
+    text.replace(text.find(from), from.size(), rig);
+    write_text(scratch / "b.yaml", text);
+    const std::string err = mckibben("control b.yaml --most-missed 1000", scratch).err;
+    return err.substr(std::min(err.find("next: "), err.size()));
+  };
+  const std::string leak = "effects: {muscle_leak: {conductance: '5e-10 m3/(s.Pa)'}}";
+  EXPECT_EQ(next("{" + leak + "}"), "next: mckibben diagnose out/b-control --rig thesis\n");
+  write_text(scratch / "mine.yaml", "schema: mckibben-rig/1\nbase: thesis\n");
+  EXPECT_EQ(next("{base: mine.yaml, " + leak + "}"),
+            "next: mckibben diagnose out/b-control --rig mine.yaml\n");
+  EXPECT_EQ(next("{base: thesis, settling_time: 0.06 s, " + leak + "}"),
+            "next: mckibben diagnose out/b-control\n");
 }
 
 TEST(Control, ASimulatedBenchLeavesADataSetThatReplays) {
@@ -101,8 +134,8 @@ TEST(Control, RefusesWhatCannotDriveABench) {
     EXPECT_EQ(said.status, 65) << why;
     EXPECT_TRUE(holds(said.err, why));
   };
-  refused(on_bench, "[16.138 kg]", "[11 kg, 16 kg]", "one load hangs on a bench");
-  refused(on_bench, "proportional: 60 mA, ", "", "has no gains; `run` of this file");
+  refused(on_bench, "[16.138 kg]", "[11 kg, 16 kg]", "b.yaml:3:8: error: loads: one load hangs on a bench");
+  refused(on_bench, "proportional: 60 mA, ", "", "b.yaml:6:15: error: controllers: pid has no gains");
   for (const char* weighs : {"{kind: model_inverse}", "{kind: model_inverse_feedback}"})
     refused(on_bench, "{kind: pid, proportional: 60 mA, integral_time: 0.15 s, derivative_time: 0.05 s}",
             weighs, "write it down as assumed_load");

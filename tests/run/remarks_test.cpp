@@ -1,4 +1,5 @@
 // Words for controllers at a limit and for tunings that gained nothing, from made-up runs.
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -50,6 +51,39 @@ TEST(Remarks, OneThatSwingsIsNotToldThatItsTargetIsOutOfReach) {
             std::string::npos)
       << warning;
   EXPECT_EQ(warning.find("the target needs"), std::string::npos) << warning;
+}
+
+TEST(Remarks, AnOpenLoopThatEndsOffItsTargetIsToldWhy) {
+  const plant::Rig rig;
+  Wanted wanted;
+  wanted.ratios.assign(200, 0.03);
+  std::fill(wanted.ratios.begin() + 50, wanted.ratios.end(), 0.13);
+  controllers::OpenLoopSettings settings;
+  settings.model.range = {.lowest_speed_mA_per_s = 5.5, .highest_speed_mA_per_s = 17.0};
+  TrackedRun run{.load_kg = 16.0, .controller = "open_loop"};
+  run.recording.samples.resize(200);
+  run.recording.samples.front().state.joint.contraction_ratio = 0.08;
+  run.recording.findings = {{"believed_load", "kg", 16.5}, {"ticks_outside_calibrated_speed", "1", 120.0}};
+
+  run.metrics.final_error = -0.019;
+  EXPECT_EQ(missed_warning(run, wanted, settings, rig), "") << "within a fifth of the target's range";
+  run.metrics.final_error = -0.05;
+  EXPECT_EQ(missed_warning(run, wanted, settings, rig),
+            "it ends 15.0 mm below its target and began 15.0 mm above target.start, to which no feedback "
+            "brings it; at 120 of 200 ticks its command should change slower or faster than those of the "
+            "calibration, 5.5 to 17 mA/s, and it takes the nearest: extrapolate_target: true, or calibrate "
+            "with such commands; feedback helps (kind: feedforward_pid), and so does a calibration of this "
+            "rig");
+  settings.extrapolate_target = true;
+  settings.assumed_load_kg = 12.0;
+  run.recording.samples.front().state.joint.contraction_ratio = 0.03;
+  EXPECT_EQ(missed_warning(run, wanted, settings, rig),
+            "it ends 15.0 mm below its target; it takes the load for 12 kg: assumed_load: 16 kg; feedback "
+            "helps (kind: feedforward_pid), and so does a calibration of this rig");
+
+  EXPECT_EQ(missed_warning(run, wanted, controllers::FeedforwardPidSettings{}, rig), "") << "has feedback";
+  wanted.ratios.back() = 0.12;
+  EXPECT_EQ(missed_warning(run, wanted, settings, rig), "") << "the target does not rest at the end";
 }
 
 TEST(Remarks, ATuningMustBeatNoFeedback) {
