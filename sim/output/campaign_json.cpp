@@ -14,12 +14,12 @@ using input::Json;
 
 namespace {
 
-Json runs_json(const std::vector<run::EndedRun>& runs) {
+Json runs_json(const plant::Rig& rig, const std::vector<run::EndedRun>& runs) {
   Json list = Json::array();
   for (const auto& run : runs) {
     if (!run.failure.empty()) continue;
     Json entry{{"id", run.job.id}, {"file", run.job.id + ".csv"}};
-    if (run.job.load_kg > 0.0) entry["load"] = input::quantity_json(run.job.load_kg, "kg");
+    if (rig.pair() == nullptr) entry["load"] = input::quantity_json(run.job.load_kg, "kg");
     list.push_back(std::move(entry));
   }
   return list;
@@ -92,7 +92,7 @@ Json columns_json(const plant::Rig& rig) {
 Json dataset_json(const plant::Rig& rig, const std::string& name, const std::vector<run::EndedRun>& runs) {
   Json data{{"schema", input::dataset_schema}, {"rig", name}};
   if (Json columns = columns_json(rig); !columns.empty()) data["columns"] = std::move(columns);
-  data["runs"] = runs_json(runs);
+  data["runs"] = runs_json(rig, runs);
   return data;
 }
 
@@ -101,7 +101,7 @@ Json truth_json(const domain::Campaign& campaign, const std::vector<run::EndedRu
           {"seed", campaign.seed},
           {"noise", input::to_json(campaign.noise, {campaign.rig.command_unit()})},
           {"rig", input::to_json(campaign.rig)},
-          {"runs", runs_json(runs)}};
+          {"runs", runs_json(campaign.rig, runs)}};
 }
 
 std::string json_of(const domain::Campaign& campaign, const std::vector<run::EndedRun>& runs) {

@@ -91,6 +91,16 @@ TEST_F(Dataset, KeepsTheEffectsOfItsBase) {
   EXPECT_TRUE(holds(read_text(scratch / "out/small-truth/truth.yaml"), "bladder_elasticity", "muscle_leak"));
 }
 
+TEST_F(Dataset, ALoadOfNothingIsWrittenToo) {
+  std::string text = small_campaign;
+  text.replace(text.find("{gauge: {fitted: true}}"), 23, "{joint: {moving_mass: 11 kg}}");
+  text.replace(text.find("11.138 kg"), 9, "0 kg");
+  write_text(scratch / "small.yaml", text);
+  const auto said = run("dataset small.yaml");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(input::read_dataset(scratch / "out/small").runs[0].load_kg, 0.0);
+}
+
 TEST_F(Dataset, ReplayedItIsRightToACount) {
   std::string text = small_campaign;
   write_text(scratch / "quiet.yaml", text.erase(text.find("noise:")));
