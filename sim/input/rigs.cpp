@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/muscles.hpp>
 #include <sim/input/quantity.hpp>
@@ -148,6 +149,32 @@ std::optional<std::pair<plant::CommandUnit, double>> command_in(const Node* node
   return std::nullopt;
 }
 
+/// The pressures of a base belong to its own commands: what it gives at 20 mA it hardly gives at 10 V.
+void require_pressures(const Source& source, const Node& valve, const plant::Valve& base,
+                       Problems& problems) {
+  const Node* kind = valve.find("kind");
+  const auto is = [&](plant::ValveKind one) {
+    return kind != nullptr ? kind->text == name_of(one) : base.kind == one;
+  };
+  if (is(plant::ValveKind::on_off) || is(plant::ValveKind::none)) return;
+  const auto require = [&](const char* key, const char* command_key, double base_Pa, double base_command,
+                           const char* usual) {
+    const Node& command = *valve.find(command_key);
+    if (valve.find(key) != nullptr) return;
+    const bool is_pressure = command_in(&command)->first == plant::CommandUnit::bar;
+    problems.error(
+        source, command.place,
+        fmt::format("{} = {}: the key {} is missing, the gauge pressure there: for example {}: {}; "
+                    "the base's {} is at {} {}",
+                    command_key, shortened(command.text), key, key,
+                    is_pressure ? split_spread(command.text).value : usual,
+                    show_limit(base_Pa, "Pa", "1 bar"), domain::write_number(base_command),
+                    name_of(base.command_unit)));
+  };
+  require("zero_pressure", "zero_command", base.zero_pressure_Pa, base.zero_command, "0 bar");
+  require("span_pressure", "span_command", base.span_pressure_Pa, base.span_command, "6 bar");
+}
+
 /// What a valve is commanded in stands behind its zero_command and span_command: both, where the base's is
 /// another. All else that a rig measures in that unit is read with it.
 void read_command_unit(const Source& source, const Node& map, Rig& into, Problems& problems) {
@@ -162,6 +189,8 @@ void read_command_unit(const Source& source, const Node& map, Rig& into, Problem
   if (zero == nullptr || span == nullptr || differ)
     problems.error(source, (to ? span : zero)->place,
                    "zero_command and span_command are both in V, both in bar, or both in mA");
+  else if (from && to)
+    require_pressures(source, *valve, into.valve, problems);
   into.valve.command_unit = unit;
   if (!from || !to || to->second <= from->second) return;  // is told of where they are read
   plant::command_in(into, to->first, from->second, to->second);

@@ -41,7 +41,8 @@ TEST(Limits, FollowTheValve) {
 
 TEST(Limits, OfARigInVoltsAreInVoltsAndSoIsAllThatIsWritten) {
   const Scratch scratch;
-  const std::string rig = "rig: {valve: {zero_command: 0 V, span_command: 10 V, zero_pressure: 0 bar}}\n";
+  const std::string rig =
+      "rig: {valve: {zero_command: 0 V, span_command: 10 V, zero_pressure: 0 bar, span_pressure: 5 bar}}\n";
   const std::string rest =
       "loads: [8 kg]\nduration: 2.5 s\n"
       "target: {kind: minimum_jerk, start: 0.03, moves: [{at: 0.5 s, lasting: 1.5 s, to: 0.06}]}\n"
@@ -80,7 +81,8 @@ TEST(Limits, DataOfARigInVoltsAreWrittenAndReadInVolts) {
   write_text(
       scratch / "campaign.yaml",
       "schema: mckibben-campaign/1\n"
-      "rig: {valve: {zero_command: 0 V, span_command: 10 V}}\nloads: [11 kg]\n"
+      "rig: {valve: {zero_command: 0 V, span_command: 10 V, zero_pressure: 0.5 bar, span_pressure: 5 "
+      "bar}}\nloads: [11 kg]\n"
       "currents: [{duration: 3 s, current: {kind: sine_current, low: 0 V, high: 8 V, period: 3 s}}]\n");
   ASSERT_EQ(mckibben("dataset campaign.yaml --out data", scratch).status, 0);
   EXPECT_EQ(read_text(scratch / "data/m1_c01.csv").find("time_s,command_V,"), 0u);

@@ -202,7 +202,8 @@ TEST_F(Replayed, VoltsAndBarDoWhatACurrentDoes) {
     ASSERT_EQ(now.size(), by_current.size());
     for (std::size_t k = 0; k < now.size(); ++k) EXPECT_NEAR(now[k], by_current[k], 1e-9) << k;
   };
-  const std::string volts = "{zero_command: 0 V, span_command: 10 V}";
+  const std::string volts =
+      "{zero_command: 0 V, span_command: 10 V, zero_pressure: 0.5 bar, span_pressure: 5 bar}";
   ASSERT_EQ(replayed(volts, "{column: V, unit: V}").status, 0);
   same();
   EXPECT_EQ(table_of(scratch / "out/r.csv").at("command_V"), (std::vector<double>{1.25, 1.25, 3.125, 10, 0}));
@@ -210,7 +211,11 @@ TEST_F(Replayed, VoltsAndBarDoWhatACurrentDoes) {
                     "\"title\":\"Command\",\"unit\":\"V\""));
   EXPECT_EQ(document().at("rig").at("valve").at("span_command"), "10 V");
   EXPECT_EQ(document().at("rig").at("dac").at("largest_command"), "10 V");
-  ASSERT_EQ(replayed("{zero_command: 0 bar, span_command: 5 bar}", "{column: kPa, unit: kPa}").status, 0);
+  ASSERT_EQ(
+      replayed("{zero_command: 0 bar, span_command: 5 bar, zero_pressure: 0.5 bar, span_pressure: 5 bar}",
+               "{column: kPa, unit: kPa}")
+          .status,
+      0);
   same();
   const Said refused = replayed(volts, "{column: mA, unit: mA}");
   EXPECT_EQ(refused.status, 65);
@@ -222,8 +227,10 @@ TEST_F(Replayed, BothValvesOfAPairTakeTheSame) {
   write_text(scratch / "r.csv", "time_s,I,V\n0,6,2\n0.2,8,4\n0.7,8,4\n");
   const std::string columns =
       "columns:\n  command_1: {column: I, unit: V}\n  command_2: {column: V, unit: V}\n";
-  const std::string runs = "  - {id: r, file: r.csv}\n",
-                    volts = "{valve: {zero_command: 0 V, span_command: 10 V}}";
+  const std::string
+      runs = "  - {id: r, file: r.csv}\n",
+      volts =
+          "{valve: {zero_command: 0 V, span_command: 10 V, zero_pressure: 0.5 bar, span_pressure: 5 bar}}";
   const Said other =
       replay("{base: thesis_pair, mechanics: {kind: pair, opposite: " + volts + "}}", columns, runs);
   EXPECT_NE(other.err.find("V is the wrong kind of unit; wanted is mA"), std::string::npos) << other.err;

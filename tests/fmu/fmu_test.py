@@ -292,7 +292,7 @@ class AnFmu(unittest.TestCase):
             self.assertEqual(fmu.answers([*ride, bad], locale=comma), fmu.answers([*ride, bad]))
 
     def test_of_a_rig_in_volts_takes_volts(self):
-        self.rig.write_text("schema: mckibben-rig/1\nvalve: {zero_command: -5 V, span_command: 5 V}\n")
+        self.rig.write_text("schema: mckibben-rig/1\nvalve: {zero_command: -5 V, span_command: 5 V, zero_pressure: 0.5 bar, span_pressure: 5 bar}\n")
         for fmu in self.each():
             command = next(each for each in fmu.variables if each.get("name") == "command")
             said = fmu.typed(command)

@@ -98,11 +98,11 @@ TEST_F(Arranged, AnotherClockBeforeAQuantityIsAsked) {
 
 TEST_F(Arranged, CommandsInVoltsStayBesideReadingsWithAClockOfTheirOwn) {
   place_.write("r.csv", "tp,u,tx,x\n0,1,5,1\n20,2,25,2\n40,3,45,3\n60,4,65,4\n");
-  place_.write(
-      "dataset.yaml",
-      "schema: mckibben-dataset/1\nrig: {base: thesis, valve: {zero_command: 0 V, span_command: 10 V}}\n"
-      "columns:\n  time: {column: tp, unit: ms}\n  command: {column: u, unit: V}\n"
-      "  contraction: {column: x, unit: mm, time: tx}\nruns: [{id: r, file: r.csv, load: 5 kg}]\n");
+  place_.write("dataset.yaml",
+               "schema: mckibben-dataset/1\nrig: {base: thesis, valve: {zero_command: 0 V, span_command: 10 "
+               "V, zero_pressure: 0.5 bar, span_pressure: 5 bar}}\n"
+               "columns:\n  time: {column: tp, unit: ms}\n  command: {column: u, unit: V}\n"
+               "  contraction: {column: x, unit: mm, time: tx}\nruns: [{id: r, file: r.csv, load: 5 kg}]\n");
   const Dataset data = read_dataset(place_);
   EXPECT_EQ(data.runs[0].measured->given("command"), (std::vector<double>{1, 1, 2, 2, 3, 3, 4}));
 }

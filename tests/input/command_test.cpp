@@ -11,6 +11,8 @@ namespace {
 
 using plant::CommandUnit;
 
+const std::string pressures = ", zero_pressure: 0.5 bar, span_pressure: 5 bar";
+
 Rig rig_with(const std::string& valve) {
   return rig_of("valve: " + valve);
 }
@@ -30,16 +32,17 @@ TEST(Commands, HaveTheUnitOfTheValve) {
   EXPECT_EQ(rig.valve.span_command, 10.0);
   EXPECT_EQ(rig_json(rig), rig_json(rig_with("{zero_current: 0 mA, span_current: 10 mA}")));
   EXPECT_EQ(rig_with("{span_command: 10 mA}").valve.zero_command, 4.0);
-  const Rig volts = rig_with("{zero_command: -5000 mV, span_command: 5 V}");
+  const Rig volts = rig_with("{zero_command: -5000 mV, span_command: 5 V" + pressures + "}");
   EXPECT_EQ(volts.command_unit(), CommandUnit::V);
   EXPECT_EQ(volts.valve.zero_command, -5.0);
-  EXPECT_EQ(rig_with("{zero_command: 0 kPa, span_command: 800 kPa}").valve.span_command, 8.0);
+  EXPECT_EQ(rig_with("{zero_command: 0 kPa, span_command: 800 kPa" + pressures + "}").valve.span_command,
+            8.0);
 }
 
 TEST(Commands, GiveTheirUnitToAllThatIsMeasuredInIt) {
-  const Rig rig = rig_of(
-      "valve: {zero_command: -5 V, span_command: 5 V ± 50 mV}\n"
-      "dac: {largest_command: 10 V}\nfriction: {f1: 0.01 s2/V2}");
+  const Rig rig = rig_of("valve: {zero_command: -5 V, span_command: 5 V ± 50 mV" + pressures +
+                         "}\n"
+                         "dac: {largest_command: 10 V}\nfriction: {f1: 0.01 s2/V2}");
   EXPECT_EQ(rig.dac.lowest_command, -5.0);  // else 0 V, and the valve's span
   EXPECT_EQ(rig.dac.largest_command, 10.0);
   EXPECT_EQ(rig.friction.f1_s2_per_mA2, 0.01);
@@ -70,9 +73,22 @@ TEST(Commands, OfOneUnitOnly) {
             std::string::npos);
   EXPECT_NE(refusal_of("valve: {zero_command: 0 V, span_command: 5 bar}").find("both in bar"),
             std::string::npos);
-  const std::string limits =
-      refusal_of("valve: {zero_command: 0 V, span_command: 10 V}\ndac: {largest_current: 20 mA}");
+  const std::string limits = refusal_of("valve: {zero_command: 0 V, span_command: 10 V" + pressures +
+                                        "}\ndac: {largest_current: 20 mA}");
   EXPECT_NE(limits.find("mA is the wrong kind of unit; wanted is V"), std::string::npos) << limits;
+}
+
+// 0.5 and 5 bar of the base are at its 4 and 20 mA.
+TEST(Commands, InAnotherUnitAskForTheirPressures) {
+  const std::string missing =
+      refusal_of("valve: {zero_command: 0 V, span_command: 10 V, zero_pressure: 0 bar}");
+  EXPECT_NE(missing.find("the key span_pressure is missing"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("span_pressure: 6 bar; the base's 5 bar is at 20 mA"), std::string::npos) << missing;
+  EXPECT_EQ(missing.find("zero_pressure is missing"), std::string::npos) << missing;
+  EXPECT_NE(refusal_of("valve: {zero_command: 0 bar, span_command: 8 bar}").find("span_pressure: 8 bar"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of("base: festo_dmsp_20\nvalve: {zero_command: 0 mA, span_command: 10 mA}"), "");
+  EXPECT_EQ(refusal_of("valve: {kind: on_off, zero_command: 0 V, span_command: 24 V}"), "");
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 
 TEST(RegulatorFile, IsReadWithHowWellItIsKnownAndWrittenBack) {
   const Rig rig = rig_of(
-      "valve: {kind: regulator, zero_command: 0 V, span_command: 10 V, time_constant: 80 ms ± 30 %, "
+      "valve: {kind: regulator, zero_command: 0 V, span_command: 10 V, zero_pressure: 0 bar, span_pressure: "
+      "6 bar, time_constant: 80 ms ± 30 %, "
       "conductance: 18 l/(min bar), venting_conductance: 9 l/(min bar), dead_band: 5 mbar}");
   EXPECT_TRUE(rig.valve.is_regulator());
   EXPECT_DOUBLE_EQ(rig.valve.time_constant_s, 0.08);

@@ -130,7 +130,7 @@ TEST(Rig, SaysHowWellItsNumbersAreKnown) {
 base: thesis
 muscle: {rest_length: 300 mm, rest_radius: 6 mm ± 0.1 mm, braid_angle: 23 deg +- 0.5 deg}
 friction: {scale: 1 ± 0.3}
-valve: {zero_command: 0 V, span_command: 10 V ± 50 mV, conductance: 2.5e-9 m3/(s.Pa) ± 10 %}
+valve: {zero_command: 0 V, span_command: 10 V ± 50 mV, zero_pressure: 0.5 bar, span_pressure: 5 bar, conductance: 2.5e-9 m3/(s.Pa) ± 10 %}
 hose: {conductance: 1e-8 m3/(s.Pa) ± unknown}
 effects: {residual_law: {terms: [{of: v, coefficient: 3 N ± 1 N}]}}
 )",
