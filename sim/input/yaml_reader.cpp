@@ -80,6 +80,12 @@ void ValueReader::check_there(std::string_view by) {
     broken_rule(map_.children.front().key, fmt::format("says nothing without {}: give that, too", by));
 }
 
+void ValueReader::check_at_work(std::string_view effect, std::string_view amplitude) {
+  if (!amplitude.empty())
+    require(amplitude,
+            fmt::format("without it {0} does nothing; `mckibben effects {0}` shows an example", effect));
+}
+
 void ValueReader::broken_rule(std::string_view key, std::string_view message) {
   const Node* node = map_.find(key);
   const bool has_text = node != nullptr && node->kind == Node::Kind::scalar;

@@ -95,6 +95,8 @@ class ValueReader {
   bool clean() const { return problems_.errors() == errors_before_; }
   /// Keys of a part that is not there say nothing.
   void check_there(std::string_view by);
+  /// An effect that is absent says so: the value of its key `amplitude` is written.
+  void check_at_work(std::string_view effect, std::string_view amplitude);
   /// A rule that is broken: shown at the key's value, or at the whole map.
   void broken_rule(std::string_view key, std::string_view message);
 
@@ -239,6 +241,17 @@ class StructReader : public ValueReader {
   }
 };
 
+/// The key without which an effect does nothing, by the law that it has now.
+template <class Effect>
+std::string_view amplitude_of(const Effect& effect) {
+  for (const plant::Variant& variant : Effect::variants) {
+    if constexpr (requires { effect.variant; })
+      if (variant.name != name_of(effect.variant)) continue;
+    return variant.amplitude;
+  }
+  return {};
+}
+
 template <Listed T>
 void read_struct(const Source& source, const Node& node, T& into, Problems& problems,
                  std::span<const std::string_view> also_allowed, const ReadContext& context) {
@@ -248,6 +261,8 @@ void read_struct(const Source& source, const Node& node, T& into, Problems& prob
   reader.check_unknown(also_allowed);
   if constexpr (requires { T::there_by; })
     if (into.absent()) reader.check_there(T::there_by);
+  if constexpr (requires { T::variants; })
+    if (into.absent() && reader.clean()) reader.check_at_work(T::name, amplitude_of(into));
   if constexpr (Resolved<T>) into.resolve();
   if constexpr (Ruled<T>) {
     const auto report = [&](std::string_view key, std::string_view message) {

@@ -13,7 +13,8 @@ LAW = {"name": "cord", "sentence": "a cord", "adds": "force", "law": "-k * x",
        "parameters": {"k": {"unit": "N/m", "typical": 300, "range": [0, 5000], "value": 400}}}
 RIGS = ["thesis", "thesis_pair", "festo_dmsp_20", "home_made", {"effects": {"hypotheses": [LAW]}},
         {"muscle": {"rest_radius": "7.5 mm ± 0.1 mm", "rest_length": "30 cm ± unknown"}},
-        {"valve": {"zero_command": "0 V", "span_command": "10 V"}}]
+        {"valve": {"zero_command": "0 V", "span_command": "10 V",
+                   "zero_pressure": "0.5 bar", "span_pressure": "5 bar"}}]
 CURRENTS = 9.0 - 4.0 * numpy.cos(0.03 * numpy.arange(100))
 
 

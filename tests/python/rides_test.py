@@ -177,7 +177,8 @@ class Rides(unittest.TestCase):
         self.assertFalse(batch.failures)
 
     def test_commands_are_in_what_the_valve_takes(self):
-        rig = mckibben.Rig({"valve": {"zero_command": "0 V", "span_command": "10 V"}})
+        rig = mckibben.Rig({"valve": {"zero_command": "0 V", "span_command": "10 V",
+                                      "zero_pressure": "0.5 bar", "span_pressure": "5 bar"}})
         self.assertEqual((rig.command_unit, rig.command_range), ("V", (0.0, 10.0)))
         volts, current = mckibben.Ride(rig, load_kg=14.0), mckibben.Ride(load_kg=14.0)
         run = volts.follow((CURRENTS - 4.0) / 1.6)
