@@ -206,6 +206,22 @@ std::string_view usual_unit(std::string_view si_unit) {
   return si_unit;
 }
 
+/// ": for example 5 bar": the number that was written, in the unit that was wanted, if it may be meant; else
+/// what is usual; nothing if neither is known.
+std::string example_for(std::string_view number, std::string_view si_unit, const Usual& usual) {
+  constexpr double alike = 10.0;
+  const auto text = [](const std::string& example) { return ": for example " + example; };
+  if (const auto written = parse_number(number)) {
+    double value = *written;
+    convert({&value, 1}, usual_unit(si_unit), si_unit);
+    const double ratio = value / usual.value;
+    if (value >= usual.lowest && value <= usual.highest &&
+        (usual.value == 0.0 || (ratio > 1.0 / alike && ratio < alike)))
+      return text(fmt::format("{} {}", number, usual_unit(si_unit)));
+  }
+  return usual.value == 0.0 ? "" : text(usual_quantity(usual.value, si_unit));
+}
+
 /// Walks through a unit's definition down to base units.
 struct Definition {
   law::UnitSize size;
@@ -253,7 +269,7 @@ std::optional<law::UnitSize> unit_size(std::string_view unit) {
   return found.size;
 }
 
-double read_quantity(std::string_view text, std::string_view si_unit) {
+double read_quantity(std::string_view text, std::string_view si_unit, const Usual& usual) {
   const std::string_view whole = trimmed(text);
   if (whole.size() > longest_quantity)
     throw BadQuantity(
@@ -272,16 +288,16 @@ double read_quantity(std::string_view text, std::string_view si_unit) {
     throw BadQuantity(fmt::format("{} must be a bare number, without a unit: for example {}", whole, number));
   }
   if (unit.empty())
-    throw BadQuantity(fmt::format("{} has no unit; it is measured in {}: for example {}", whole, si_unit,
-                                  example_quantity(si_unit, number)));
+    throw BadQuantity(fmt::format("{} has no unit; it is measured in {}{}", whole, si_unit,
+                                  example_for(number, si_unit, usual)));
   double converted = *value;
   const Fit fit = convert({&converted, 1}, unit, si_unit);
   if (fit == Fit::unknown)
-    throw BadQuantity(fmt::format("{}: {} is not a unit; wanted is {}: for example {}", whole, unit, si_unit,
-                                  example_quantity(si_unit, number)));
+    throw BadQuantity(fmt::format("{}: {} is not a unit; wanted is {}{}", whole, unit, si_unit,
+                                  example_for(number, si_unit, usual)));
   if (fit == Fit::wrong)
-    throw BadQuantity(fmt::format("{}: {} is the wrong kind of unit; wanted is {}: for example {}", whole,
-                                  unit, si_unit, example_quantity(si_unit, number)));
+    throw BadQuantity(fmt::format("{}: {} is the wrong kind of unit; wanted is {}{}", whole, unit, si_unit,
+                                  example_for("", si_unit, usual)));
   return converted;
 }
 
@@ -294,8 +310,8 @@ WithSpread split_spread(std::string_view text) {
 
 double read_spread(std::string_view spread, double value, std::string_view si_unit) {
   if (spread.empty())
-    throw BadQuantity(fmt::format("what follows ± is missing: for example ± {}, ± 10 % or ± unknown",
-                                  example_quantity(si_unit, "0.1")));
+    throw BadQuantity(fmt::format("what follows ± is missing: a deviation{}, ± 10 % or ± unknown",
+                                  si_unit == "1" ? "" : fmt::format(" in {}", usual_unit(si_unit))));
   if (spread == unknown_spread) return std::numeric_limits<double>::infinity();
   const bool relative = spread.ends_with('%');
   const double read = read_quantity(spread, relative ? "1" : si_unit) * (relative ? std::abs(value) : 1.0);
@@ -351,8 +367,12 @@ std::string show_limit(double limit, std::string_view si_unit, std::string_view 
                                                           : fmt::format("{:.6g} {}", limit, si_unit);
 }
 
-std::string example_quantity(std::string_view si_unit, std::string_view number) {
-  return si_unit == "1" ? std::string(number) : fmt::format("{} {}", number, usual_unit(si_unit));
+std::string usual_quantity(double value, std::string_view si_unit) {
+  const bool small = std::abs(value) < 1.0;
+  const std::string_view unit = si_unit == "m" && small   ? "mm"
+                                : si_unit == "s" && small ? "ms"
+                                                          : usual_unit(si_unit);
+  return show_limit(value, si_unit, fmt::format("1 {}", unit));
 }
 
 }  // namespace mckibben::input

@@ -2,6 +2,7 @@
 // Units are those of UDUNITS-2 (Unidata); it also checks that a unit measures the right thing.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -18,10 +19,16 @@ class BadQuantity : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a value usually is, for examples in messages: 0 where nothing is known.
+struct Usual {
+  double value = 0.0;
+  double lowest = -std::numeric_limits<double>::infinity(), highest = std::numeric_limits<double>::infinity();
+};
+
 /// The value of `text`, such as "30 mm", in `si_unit`, such as "m". For the unit "1" a bare number is wanted
 /// (or per cent, "5 %"). Angles are not taken for ratios, nor ratios for angles. Safe to call from several
 /// threads. Throws BadQuantity; std::runtime_error if the unit database is not installed.
-double read_quantity(std::string_view text, std::string_view si_unit);
+double read_quantity(std::string_view text, std::string_view si_unit, const Usual& usual = {});
 
 /// "6 mm ± 0.1 mm", taken apart at the sign, which may also be "+-". `spread` is empty where there is none.
 struct WithSpread {
@@ -54,7 +61,7 @@ std::string write_quantity(double value, std::string_view si_unit);
 /// angles, with six digits.
 std::string show_limit(double limit, std::string_view si_unit, std::string_view text = {});
 
-/// An example in a usual unit: "5 bar" for "Pa".
-std::string example_quantity(std::string_view si_unit, std::string_view number = "5");
+/// A value as people write it: "5 bar" for 5e5 Pa, "8 mm" for 0.008 m.
+std::string usual_quantity(double value, std::string_view si_unit);
 
 }  // namespace mckibben::input

@@ -32,6 +32,10 @@ std::optional<Parts> parted(std::string_view text, std::string_view sign) {
   return Parts{trimmed(text.substr(0, at)), trimmed(text.substr(at + sign.size()))};
 }
 
+Usual usual(const RigNumber& number) {
+  return {*number.value, number.lowest, number.highest};
+}
+
 std::string how_to(const RigNumber& number) {
   const double middle = *number.value != 0.0 ? *number.value : 0.5 * (number.lowest + number.highest);
   const std::string shown = show_limit(middle, number.unit);
@@ -44,7 +48,7 @@ Varied drawn_normal(std::string_view text, const RigNumber& number) {
   auto parts = parted(text, "±");
   if (!parts) parts = parted(text, "+-");
   if (!parts) throw BadQuantity(how_to(number));
-  const double middle = read_quantity(parts->left, number.unit);
+  const double middle = read_quantity(parts->left, number.unit, usual(number));
   const double deviation = parts->right.ends_with('%') ? read_quantity(parts->right, "1") * std::abs(middle)
                                                        : read_quantity(parts->right, number.unit);
   if (!(deviation > 0.0))
@@ -55,7 +59,8 @@ Varied drawn_normal(std::string_view text, const RigNumber& number) {
 Varied drawn_uniform(std::string_view text, const RigNumber& number) {
   const auto parts = parted(text, "..");
   if (!parts) throw BadQuantity(how_to(number));
-  const double low = read_quantity(parts->left, number.unit), high = read_quantity(parts->right, number.unit);
+  const auto read = [&](std::string_view end) { return read_quantity(end, number.unit, usual(number)); };
+  const double low = read(parts->left), high = read(parts->right);
   if (!(low < high))
     throw BadQuantity(fmt::format("{} must be below {}", shortened(parts->left), shortened(parts->right)));
   return Varied::uniform(low, high);

@@ -121,10 +121,14 @@ void ValueReader::spread(std::string_view key, std::optional<std::string_view> s
 }
 
 void ValueReader::quantity(std::string_view key, const Node& node, double& value, const Limits& limits) {
-  if (!is_scalar(key, node, fmt::format("one value, for example {}", example_quantity(limits.unit)))) return;
+  const Usual usual{std::isfinite(value) ? value : 0.0, limits.lowest, limits.highest};
+  const std::string unit = limits.unit == "1" ? "" : fmt::format(" in {}", limits.unit);
+  const std::string example =
+      usual.value == 0.0 ? unit : ", for example " + usual_quantity(usual.value, limits.unit);
+  if (!is_scalar(key, node, "one value" + example)) return;
   try {
     const WithSpread said = split_spread(node.text);
-    const double read = read_quantity(said.value, limits.unit);
+    const double read = read_quantity(said.value, limits.unit, usual);
     if (read >= limits.lowest && read <= limits.highest) {
       value = read;
       return spread(key, said.spread, read, limits.unit);
@@ -171,11 +175,12 @@ void ValueReader::text(std::string_view key, const Node& node, std::string& valu
 }
 
 void ValueReader::height(std::string_view key, const Node& node, controllers::Height& value) {
+  constexpr double usual_m = 0.03;
   if (!is_scalar(key, node, "a contraction ratio or a length, for example 0.1 or 30 mm")) return;
   try {
     const std::string_view whole = trimmed(node.text);
     const bool is_ratio = number_length(whole) == whole.size() || whole.ends_with('%');
-    const double read = read_quantity(whole, is_ratio ? "1" : "m");
+    const double read = read_quantity(whole, is_ratio ? "1" : "m", {usual_m});
     if (!std::isfinite(read)) throw BadQuantity(shortened(node.text) + " is too large");
     value = {read, !is_ratio};
   } catch (const BadQuantity& error) {

@@ -98,8 +98,20 @@ TEST(Quantity, SayWhatIsWrong) {
   EXPECT_EQ(problem_of("0.3", "m"), "0.3 has no unit; it is measured in m: for example 0.3 m");
   EXPECT_EQ(problem_of("5", "Pa"), "5 has no unit; it is measured in Pa: for example 5 bar");
   EXPECT_EQ(problem_of("20", "rad"), "20 has no unit; it is measured in rad: for example 20 deg");
-  EXPECT_EQ(problem_of("3 kg", "Pa"), "3 kg: kg is the wrong kind of unit; wanted is Pa: for example 3 bar");
+  EXPECT_EQ(problem_of("3 kg", "Pa"), "3 kg: kg is the wrong kind of unit; wanted is Pa");
   EXPECT_EQ(problem_of("3 barr", "Pa"), "3 barr: barr is not a unit; wanted is Pa: for example 3 bar");
+  const auto of_radius = [](const char* text) {
+    try {
+      read_quantity(text, "m", {.value = 0.0075, .lowest = 1e-3, .highest = 0.1});
+    } catch (const BadQuantity& bad) {
+      return std::string(bad.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(of_radius("8"), "8 has no unit; it is measured in m: for example 7.5 mm");
+  EXPECT_EQ(of_radius("0.008"), "0.008 has no unit; it is measured in m: for example 0.008 m");
+  EXPECT_EQ(of_radius("0.09"), "0.09 has no unit; it is measured in m: for example 7.5 mm");
+  EXPECT_EQ(of_radius("0.008 N"), "0.008 N: N is the wrong kind of unit; wanted is m: for example 7.5 mm");
   EXPECT_EQ(problem_of("1.3 mm", "1"), "1.3 mm must be a bare number, without a unit: for example 1.3");
   EXPECT_EQ(problem_of("010 mm", "m"), "010 mm is not a number: it must not begin with 0");
   EXPECT_EQ(problem_of("0,3 m", "m"), "0,3 m is not a number: the decimal sign is a point");
