@@ -15,7 +15,7 @@ std::vector<std::string> matches(const std::string& text, const std::regex& patt
 
 std::vector<Synonym> read(std::string_view page) {
   static const std::regex row(R"(\| (.+) \| (.+) \|)"), link(R"(\[([^\]]*)\]\([^)]*\))"),
-      term(" *([^,:]+)[,:]?"), name("`([^`]+)`");
+      term(" *([^,:]+)[,:]?"), name("`(?:[a-z_]+: )?([^`]+)`");
   std::vector<Synonym> list;
   for (const auto part : std::views::split(page, '\n')) {
     const std::string line(part.begin(), part.end());

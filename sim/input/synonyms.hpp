@@ -13,7 +13,7 @@ extern const std::string_view your_words;  ///< the page, by cmake/embed.cmake
 struct Synonym {
   std::string term;                ///< as `spelled_alike` makes it
   std::string here;                ///< what the page says of it, without its links
-  std::vector<std::string> names;  ///< what stands in `here` between backticks
+  std::vector<std::string> names;  ///< what stands in `here` between backticks; of `key: value` the value
 };
 
 /// A row of a table for each of its terms.

@@ -116,6 +116,9 @@ TEST(DidYouMean, ForVerbsOptionsAndValues) {
            {"schema rig --format yml", "unknown format yml; did you mean yaml?"},
            {"effects muscle_leek", "unknown effect muscle_leek; did you mean muscle_leak?"},
            {"effects lqr", "lqr is not an effect; here: `linearise --lqr`"},
+           {"effects 'thread friction'", "not an effect; here: `friction`"},
+           {"effects Schlauch", "not an effect; here: `hose`"},
+           {"effects regulator", "not an effect; here: `kind: regulator`"},
        }) {
     const Said said = mckibben(slip.arguments, scratch);
     EXPECT_EQ(said.status, 64) << slip.arguments;
@@ -139,9 +142,12 @@ TEST(DidYouMean, ForTermsOfTheField) {
                     "did you mean speed_dependent_friction?", "did you mean valve_dead_band?"));
   write_text(scratch / "scenario.yaml",
              "schema: mckibben-scenario/1\nloads: [9 kg]\nduration: 1 s\ntarget: {kind: steps, moves: []}\n"
-             "controllers:\n  - {kind: PID}\n  - {kind: lqr}\n");
+             "rig: {valve: {kind: proportional}}\n"
+             "controllers:\n  - {kind: PID}\n  - {kind: lqr}\n  - {kind: pid, Kp: 3, ki: 1, kd: 1}\n");
   EXPECT_TRUE(holds(mckibben("check scenario.yaml", scratch).err, "did you mean pid?",
-                    "did you mean external or plugin?"));
+                    "did you mean external or plugin?", "did you mean servo or regulator?",
+                    "did you mean proportional?", "did you mean integral_time?",
+                    "did you mean derivative_time?"));
 }
 
 TEST(DidYouMean, ForEffectsInRigFiles) {
