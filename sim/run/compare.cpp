@@ -268,6 +268,8 @@ class Comparing {
       if (run.unreachable.any()) all.push_back(data::warning_of_run(id, run.unreachable.text()));
       if (const std::string stood = limit_warning(run, scenario_.rig); !stood.empty())
         all.push_back(data::warning_of_run(id, stood));
+      if (const std::string wrong = load_warning(run, settings_of(i)); !wrong.empty())
+        all.push_back(data::warning_of_run(id, wrong));
       if (run.followed())
         if (const std::string off =
                 missed_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig);

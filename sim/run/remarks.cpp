@@ -147,11 +147,19 @@ std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const co
         "commands",
         outside, wanted.ratios.size(), range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
         name_of(rig.command_unit()));
-  const double believed_kg = terms->assumed_load_kg.value_or(controllers::value_of(found, "believed_load"));
-  if (std::abs(believed_kg - run.load_kg) > controllers::weighing_tolerance * run.load_kg)
-    text += fmt::format("; it takes the load for {:.4g} kg: assumed_load: {} kg", believed_kg,
-                        domain::write_number(run.load_kg));
   return text + "; feedback helps (kind: feedforward_pid), and so does a calibration of this rig";
+}
+
+std::string load_warning(const TrackedRun& run, const controllers::Settings& settings) {
+  const auto* terms = controllers::part_of<controllers::CalibratedSettings>(settings);
+  if (terms == nullptr || !run.failure.empty()) return "";
+  const double believed_kg =
+      terms->assumed_load_kg.value_or(controllers::value_of(run.recording.findings, "believed_load"));
+  if (std::abs(believed_kg - run.load_kg) <= controllers::weighing_tolerance * run.load_kg) return "";
+  const std::string load = domain::write_number(run.load_kg);
+  return fmt::format("it takes its load of {} kg for {:.3g} kg: write assumed_load: {} kg{}", load,
+                     believed_kg, load,
+                     terms->assumed_load_kg ? "" : ", or a weighing or calibration that fits this rig");
 }
 
 bool gained_nothing(const TunedController& tuned) {

@@ -32,6 +32,10 @@ std::string limit_warning(const TrackedRun& run, const plant::Rig& rig);
 std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
                            const plant::Rig& rig);
 
+/// Of a controller with a calibration whose load, weighed or assumed, is further from the real one than
+/// weighing may be wrong: with the key to write. Empty if it is not.
+std::string load_warning(const TrackedRun& run, const controllers::Settings& settings);
+
 /// True if the tuned gains follow the target no better than no feedback at all.
 bool gained_nothing(const TunedController& tuned);
 

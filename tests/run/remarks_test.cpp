@@ -77,13 +77,37 @@ TEST(Remarks, AnOpenLoopThatEndsOffItsTargetIsToldWhy) {
   settings.extrapolate_target = true;
   settings.assumed_load_kg = 12.0;
   run.recording.samples.front().state.joint.contraction_ratio = 0.03;
-  EXPECT_EQ(missed_warning(run, wanted, settings, rig),
-            "it ends 15.0 mm below its target; it takes the load for 12 kg: assumed_load: 16 kg; feedback "
-            "helps (kind: feedforward_pid), and so does a calibration of this rig");
+  EXPECT_EQ(
+      missed_warning(run, wanted, settings, rig),
+      "it ends 15.0 mm below its target; feedback helps (kind: feedforward_pid), and so does a calibration "
+      "of this rig");
 
   EXPECT_EQ(missed_warning(run, wanted, controllers::FeedforwardPidSettings{}, rig), "") << "has feedback";
   wanted.ratios.back() = 0.12;
   EXPECT_EQ(missed_warning(run, wanted, settings, rig), "") << "the target does not rest at the end";
+}
+
+// T 4.3: what it weighs may be wrong by a tenth.
+TEST(Remarks, AWrongLoadIsToldWhereverTheRunEnds) {
+  TrackedRun run;
+  run.load_kg = 5.0;
+  controllers::OpenLoopSettings settings;
+  const auto weighed = [&](double kg) {
+    run.recording.findings = {{"believed_load", "kg", kg}};
+    return load_warning(run, settings);
+  };
+  EXPECT_EQ(weighed(5.49), "");
+  EXPECT_EQ(
+      weighed(9.451),
+      "it takes its load of 5 kg for 9.45 kg: write assumed_load: 5 kg, or a weighing or calibration that "
+      "fits this rig");
+  settings.assumed_load_kg = 5.0;
+  EXPECT_EQ(weighed(9.451), "");
+  settings.assumed_load_kg = 4.0;
+  EXPECT_EQ(weighed(5.0), "it takes its load of 5 kg for 4 kg: write assumed_load: 5 kg");
+  EXPECT_EQ(load_warning(run, controllers::FeedforwardPidSettings{}), "") << "has feedback";
+  run.failure = "the load was not weighed";
+  EXPECT_EQ(load_warning(run, settings), "");
 }
 
 TEST(Remarks, ATuningMustBeatNoFeedback) {
