@@ -135,6 +135,11 @@ class Ranges {
           "that "
           "reading, and with factor: -1 if it falls as the muscle contracts",
           line_of("contraction", meant));
+    } else if (std::abs(meant.factor) != 1.0) {  // a reading in V, whose unit nothing else would be
+      hint = fmt::format(
+          "zero is the reading at rest length, factor the {} for each unit of the column: are both right in "
+          "columns: {{{}}}?",
+          meant.unit == "1" ? "contraction ratio" : meant.unit, line_of("contraction", meant));
     } else {
       meant.unit = std::string(meant.unit == "mm" ? "count" : "mm");
       hint = fmt::format(
