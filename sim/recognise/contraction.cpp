@@ -24,10 +24,19 @@ std::optional<double> length_at_rest(const std::string& unit, bool is_length, co
   return length.front();
 }
 
+/// By how much it moves in a single table where the drive is lowest: loads of other tables stretch it
+/// otherwise.
+double scatter_alone(const Readings& drives, const Readings& readings) {
+  double widest = 0.0;
+  for (std::size_t i = 0; i < drives.values.size(); ++i)
+    widest = std::max(widest, together({drives.values[i]}, {readings.values[i]}).scatter);
+  return widest;
+}
+
 /// Zero of a contraction that moves along with what drives the muscle; none: 0.
 std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess& drive, const Together& found,
-                              const Range& range, double lowest_drive, bool is_length, bool empties,
-                              const KnownRig& rig) {
+                              double alone, const Range& range, double lowest_drive, bool is_length,
+                              bool empties, const KnownRig& rig) {
   const std::string& unit = contraction.unit.value;
   const double span = range.high - range.low;
   const bool falls = found.correlation < 0.0, ratio = unit == "1" || unit == "%";
@@ -47,10 +56,12 @@ std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess&
   const double step = std::pow(10.0, std::floor(std::log10(digits_of_range * span)));
   const auto rounded = [&](double value) { return fmt::format("{:.12g}", std::round(value / step) * step); };
   if (found.scatter > settled_share * span)
-    return left_open(
-        fmt::format("what it reads at the muscle's rest length; where {} is lowest, {:.4g}, it still "
-                    "moves by {:.4g} {}; perhaps {}, the end of its readings",
-                    drive.column.value, lowest_drive, found.scatter, unit, rounded(at_rest)));
+    return left_open(fmt::format(
+        "what it reads at the muscle's rest length; where {} is lowest, {:.4g}, it {} by {:.4g} {}; "
+        "perhaps {}, the end of its readings",
+        drive.column.value, lowest_drive,
+        alone > settled_share * span ? "still moves" : "differs between the tables, as loads do,",
+        found.scatter, unit, rounded(at_rest)));
   const std::string reason =
       fmt::format("its median where {} is lowest, {:.4g}", drive.column.value, lowest_drive);
   if (empties)
@@ -103,12 +114,14 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
     contraction.factor = Told{"-1", "it falls as the muscle contracts, " + along};
   const double at_rest = falls ? range.high : range.low;
   if (!scale_is_open)
-    contraction.zero = zero_told(contraction, drive, found, range, drives->range.low, heading.is_length,
-                                 gauge != nullptr && reads_nothing(*gauge, tables), rig);
+    contraction.zero =
+        zero_told(contraction, drive, found, scatter_alone(*drives, *readings), range, drives->range.low,
+                  heading.is_length, gauge != nullptr && reads_nothing(*gauge, tables), rig);
   else if (std::abs(at_rest) > near_rest_share * (range.high - range.low))
-    contraction.zero = left_open(
-        "what it reads with the muscle at its rest length, before factor is multiplied: 7.5 of 0 "
-        "to 10 V");
+    contraction.zero = left_open(fmt::format(
+        "what it reads with the muscle at its rest length, before factor is multiplied; its readings "
+        "go from {:.4g} to {:.4g}, and {:.4g} is nearest to it",
+        range.low, range.high, at_rest));
 }
 
 }  // namespace mckibben::recognise

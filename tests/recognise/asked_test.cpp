@@ -152,6 +152,25 @@ TEST_F(Asked, TheZeroOfWhatStillMovesWhereItsDriveIsLowest) {
   EXPECT_TRUE(column(unit, "contraction").zero->open()) << "its unit is open";
 }
 
+TEST_F(Asked, TheZeroOfWhatOtherLoadsStretch) {
+  const auto zero = [&](double stretched_mm, double moves_mm) {
+    std::vector<std::filesystem::path> files;
+    for (int load = 0; load < 2; ++load) {
+      std::string text = "t [ms];u [V];Weg [mm]\n";
+      for (int k = 0; k < 200; ++k)
+        text += fmt::format("{};{:.3f};{:.3f}\n", 12 * k, 10 * drive(k),
+                            80 - 40 * drive(k) + stretched_mm * load + (k < 5 ? moves_mm * k : 0));
+      files.push_back(folder_.write(fmt::format("{}kg.csv", 5 + 5 * load), text));
+    }
+    return column(recognise(files, true, {}), "contraction").zero.value();
+  };
+  EXPECT_FALSE(zero(0.0, 0.0).open() && holds(zero(0.0, 0.0).reason, "differs"));
+  EXPECT_TRUE(zero(8.0, 0.0).open());
+  EXPECT_TRUE(holds(zero(8.0, 0.0).reason, "differs between the tables, as loads do, by 8"));
+  EXPECT_TRUE(holds(zero(0.0, 2.0).reason, "it still moves by"));
+  EXPECT_TRUE(lacks(zero(0.0, 2.0).reason, "differs between"));
+}
+
 TEST_F(Asked, AFactorInAHeadingAndTwoUnits) {
   const auto row = [](int k) {
     return fmt::format("{},{:.3f},{:.3f}", 12 * k, 50 * drive(k), 10 * drive(k));
