@@ -52,6 +52,22 @@ double mean_speed_mA_per_s(const std::vector<HalfPeriod>& halves, double tick_s,
   return mean;
 }
 
+/// The largest step of a half period that is a staircase: most of its change is in rows that change several
+/// times the mean, and by more than the digits of a slow ramp. 0 of one that is none.
+double step_mA(const std::vector<double>& current_mA, const HalfPeriod& half) {
+  constexpr double several = 4.0, share = 0.02, most = 0.5;
+  const auto begin = static_cast<std::size_t>(half.begin),
+             end = static_cast<std::size_t>(std::ceil(half.end));
+  const double change_mA = std::abs(half.change_mA), mean_mA = change_mA / (half.end - half.begin);
+  double largest_mA = 0.0, in_steps_mA = 0.0;
+  for (std::size_t k = begin + 1; k < std::min(end + 1, current_mA.size()); ++k) {
+    const double now_mA = std::abs(current_mA[k] - current_mA[k - 1]);
+    largest_mA = std::max(largest_mA, now_mA);
+    if (now_mA > std::max(several * mean_mA, share * change_mA)) in_steps_mA += now_mA;
+  }
+  return in_steps_mA > most * change_mA ? largest_mA : 0.0;
+}
+
 class Processor {
  public:
   Processor(const domain::Run& run, const domain::Dataset& dataset, const ProcessingOptions& options)
@@ -76,6 +92,13 @@ class Processor {
     }
     result.current_speed_mA_per_s =
         mean_speed_mA_per_s(halves, rig_.tick_s, rig_.command_unit(), result.unusable);
+    for (const HalfPeriod& half : halves)
+      if (const double step = step_mA(run_.current_mA, half); step > 0.0)
+        result.unusable =
+            in_unit(rig_.command_unit(),
+                    fmt::format("its current goes in steps, of up to {:.3g} mA, which have no speed: "
+                                "use sines or triangles of constant period",
+                                step));
     if (!result.unusable.empty()) return result;
     for (const HalfPeriod& half : halves) take(half, result);
     result.dropped.first_rows = counts_.size() - taken_;

@@ -136,6 +136,21 @@ TEST(Processing, DirectionsOfASineAreApartAndEveryRowIsAccountedFor) {
   EXPECT_GT(vector(up.contraction_ratio).minCoeff(), 0.0);
 }
 
+// The mean of a staircase, so much in so long, is no speed of its current.
+TEST(Processing, AStaircaseHasNoSpeedButASlowRampHas) {
+  domain::Dataset dataset;
+  domain::Run run = ride(16.138, 3.6);
+  const auto every = [&](std::size_t rows) {
+    domain::Run held = run;
+    for (std::size_t k = 0; k < held.current_mA.size(); ++k)
+      held.current_mA[k] = run.current_mA[k / rows * rows];
+    return process(held, dataset, {}).unusable;
+  };
+  EXPECT_EQ(every(1), "");
+  EXPECT_EQ(every(2), "") << "a command that is sampled slower than the reading";
+  EXPECT_NE(every(30).find("its current goes in steps, of up to "), std::string::npos) << every(30);
+}
+
 TEST(Processing, TheGaugeIsUsedWhenAskedFor) {
   domain::Dataset dataset;
   const domain::Run run = ride(16.138, 3.6);
