@@ -31,6 +31,21 @@ Json changes(const Json& from, const Json& to) {
   return changed;
 }
 
+/// The shipped rig whose effects the rig has, as a base; empty if it has none. What stands over a base is
+/// found, what is in it was known: a campaign's owner knows these effects (campaign_file.cpp).
+std::string base_with_effects(const plant::Rig& rig, const plant::Rig& corrected) {
+  const Json effects = input::to_json(rig.effects), now = input::to_json(corrected.effects);
+  std::vector<domain::InputFile> none;
+  for (const auto name : input::shipped_rigs()) {
+    const Json base = input::to_json(input::read_rig(std::string(name), none).effects);
+    const auto still_there = [&](const auto& one) { return now.contains(one.key()); };
+    const auto all = base.items();
+    if (!base.empty() && base == effects && std::all_of(all.begin(), all.end(), still_there))
+      return std::string(name);
+  }
+  return "";
+}
+
 /// The corrected rig as it stands in a file, without schema.
 Json corrected_rig(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   const Json shipped = input::to_json(plant::Rig{});
@@ -40,7 +55,11 @@ Json corrected_rig(const domain::Dataset& data, const diagnose::Diagnosis& diagn
     file.update(changes(shipped, rig));
     return file;
   }
-  return rig;
+  const std::string base = base_with_effects(data.rig, diagnosis.corrected);
+  if (base.empty()) return rig;
+  Json file{{"base", base}};
+  file.update(rig);
+  return file;
 }
 
 /// A text as comment, whatever lines it has.

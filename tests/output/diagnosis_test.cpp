@@ -174,6 +174,25 @@ TEST(DiagnosisRig, HoldsEveryFieldOfARigThatIsNotShipped) {
   EXPECT_EQ(input::rig_json(read_back(text)), input::rig_json(found.corrected)) << text;
 }
 
+// A campaign of it knows the tube's elasticity: calibrate counts it.
+TEST(DiagnosisRig, HasTheBaseWhoseEffectsWereKnown) {
+  std::vector<domain::InputFile> none;
+  domain::Dataset data = measured();
+  data.rig = input::read_rig("festo_dmsp_20", none);
+  data.rig.muscle.rest_length_m = 0.4;
+  diagnose::Diagnosis found = diagnosed();
+  found.corrected.effects.get<plant::BladderElasticity>() = data.rig.effects.get<plant::BladderElasticity>();
+  found.corrected.effects.get<plant::BladderElasticity>().force_N = 260.0;
+  const std::string text = rig_yaml(data, found);
+  EXPECT_TRUE(holds(text, "base: festo_dmsp_20\n", "settling_time:"));
+  EXPECT_EQ(input::rig_json(read_back(text)), input::rig_json(found.corrected)) << text;
+  const domain::Campaign next = input::read_campaign(input::Source("plan.yaml", plan_yaml(data, found), "."));
+  EXPECT_FALSE(next.known.effects.get<plant::BladderElasticity>().absent());
+  EXPECT_TRUE(next.known.effects.get<plant::MuscleLeak>().absent()) << "is there to be found";
+  found.corrected.effects.get<plant::BladderElasticity>() = {};
+  EXPECT_TRUE(lacks(rig_yaml(data, found), "base:")) << "it would come back";
+}
+
 TEST(DiagnosisRig, IsTheNominalOneWhereNothingWasFound) {
   diagnose::Diagnosis nothing;
   nothing.because = "the gap is within noise,\nschema: mckibben-scenario/1";  // stays a comment
