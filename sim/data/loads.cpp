@@ -114,8 +114,22 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
   return std::nullopt;
 }
 
+/// Whether the loads of all other runs are off as well, by half as much or more: a zero elsewhere does that,
+/// or another muscle. False where there are no others.
+bool all_are_off(const std::vector<Weighed>& list, const Weighed& one) {
+  constexpr double as_well = 0.5;
+  const auto off_kg = [](const Weighed& each) { return each.seems_kg - each.label_kg; };
+  bool others = false;
+  for (const Weighed& other : list) {
+    if (other.label_kg == one.label_kg) continue;
+    others = true;
+    if (!(off_kg(other) / off_kg(one) > as_well)) return false;
+  }
+  return others;
+}
+
 /// Single loads that are a tenth or a thousandth of what hung, or ten or a thousand times that, beside
-/// others that are right.
+/// others that are right. What all runs are off by alike is no misplaced point.
 std::optional<Finding> misplaced_points(const domain::Dataset& data, const std::vector<Weighed>& list) {
   const double scale = common_ratio(list);
   Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
@@ -123,6 +137,16 @@ std::optional<Finding> misplaced_points(const domain::Dataset& data, const std::
     for (const double factor : {10.0, 0.1, 1e3, 1e-3}) {
       const double off = std::abs(std::log(one.seems_kg / one.label_kg / scale / factor));
       if (one.seems_kg <= 0.0 || scale <= 0.0 || !(off < std::log(of_loads.sure_tenth))) continue;
+      if (all_are_off(list, one))
+        return Finding{
+            "load", runs_of(list),
+            fmt::format(
+                "{} ({} kg) moves like {:.3g} kg, and the loads of all other runs seem {} than "
+                "written, too: is the zero of contraction what it reads at rest length, and is it this "
+                "muscle?",
+                data.runs[one.run].id, domain::write_number(one.label_kg), one.seems_kg,
+                one.seems_kg > one.label_kg ? "heavier" : "lighter"),
+            Severity::doubtful};
       found.runs.push_back(one.run);
       found.message +=
           fmt::format("{}{} ({} kg) moves like {:.3g} kg: write load: {:.6g} kg",

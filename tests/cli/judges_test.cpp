@@ -250,5 +250,26 @@ TEST_P(Judges, SayTheSame) {
 INSTANTIATE_TEST_SUITE_P(Each, Judges, testing::ValuesIn(spoilt),
                          [](const auto& each) { return std::string(each.param.name); });
 
+class JudgedLoads : public InAFolder {};
+
+// By 9 kg alike: 0.4 kg move like 8 kg, which a point misplaced by one digit would do, too.
+TEST_F(JudgedLoads, AZeroElsewhereIsNoMisplacedPoint) {
+  std::string campaign = base;
+  campaign.replace(campaign.find("11.138 kg, 16.138"), 17, "0.4 kg, 11.138");
+  write_text(scratch / "base.yaml", campaign);
+  ASSERT_EQ(run("dataset base.yaml --out d").status, 0);
+  write_text(scratch / "d/other.yaml",
+             "schema: mckibben-dataset/1\nrig: rig.yaml\nstart: settled\ncolumns:\n"
+             "  time: {column: time_s, unit: s}\n"
+             "  muscle_pressure: {column: muscle_pressure_bar, unit: bar, as: input}\n"
+             "  contraction: {column: contraction_ratio, unit: 1, zero: 0.05}\nruns:\n"
+             "  - {id: m1, file: m1_c01.csv, load: 0.4 kg}\n  - {id: m2, file: m2_c01.csv, load: 11.138 kg}\n"
+             "  - {id: m3, file: m3_c01.csv, load: 23.406 kg}\n");
+  const auto said = run("check d/other.yaml");
+  EXPECT_TRUE(lacks(said.err, "misplaced", "write load"));
+  EXPECT_TRUE(
+      holds(said.err, "m1 (0.4 kg) moves like", "is the zero of contraction what it reads at rest length"));
+}
+
 }  // namespace
 }  // namespace mckibben::cli::judges
