@@ -65,9 +65,9 @@ std::optional<Finding> other_zero(const Compared& contraction, ColumnPlace place
   return Finding{
       .quantity = "contraction",
       .runs = contraction.runs,
-      .message = fmt::format("contraction is {:.3g} more than pressure and load say, everywhere: is its "
+      .message = fmt::format("contraction is {:.3g} {} than pressure and load say, everywhere: is its "
                              "zero what it reads at rest length? About columns: {{{}}}",
-                             off, line_of("contraction", place)),
+                             std::abs(off), off > 0.0 ? "more" : "less", line_of("contraction", place)),
       .severity = Severity::doubtful};
 }
 

@@ -20,7 +20,10 @@ std::string contraction_problem(const std::string& unit) {
   if (unit == "1" || unit == "%" || unit == counts_unit) return "";
   if (unit_problem(unit, "m").empty() || unit_problem(unit, "rad").empty()) return "";
   return fmt::format(
-      "{} is not a unit of contraction; wanted is 1, %, count, an angle (deg) or a length (mm)", unit);
+      "{0} is not a unit of contraction; wanted is 1, %, count, an angle (deg) or a length (mm): of a sensor "
+      "in "
+      "another write unit: mm, and factor: how many mm are 1 {0}",
+      unit);
 }
 
 /// Brings numbers in `unit` to ratios; units that are none have been refused.

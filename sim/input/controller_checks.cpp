@@ -1,9 +1,11 @@
 // See the header.
+#include <algorithm>
 #include <map>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include <sim/domain/number.hpp>
 #include <sim/input/calibration_file.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/controller_checks.hpp>
@@ -95,21 +97,26 @@ class ControllerChecker {
     settings.model = *model;
     const controllers::CalibratedRange& range = settings.model.range;
     const auto check = [&](const Node* given, std::string_view key, double value, double lowest,
-                           double highest, std::string_view unit) {
+                           double highest, std::string_view unit, const std::string& instead) {
       if (settings.extrapolate_load || (value >= lowest && value <= highest)) return;
-      problems_.error(source_, given != nullptr ? given->place : node.place,
-                      fmt::format("{} = {:g} {} is outside what {} was made with, {:g} to {:g} {}; calibrate "
-                                  "on both sides of it, or allow it with extrapolate_load: true",
-                                  key, value, unit, settings.calibration, lowest, highest, unit));
+      problems_.error(
+          source_, given != nullptr ? given->place : node.place,
+          fmt::format("{} = {:g} {} is outside what {} was made with, {:g} to {:g} {}; {}calibrate "
+                      "on both sides of it, or allow it with extrapolate_load: true",
+                      key, value, unit, settings.calibration, lowest, highest, unit, instead));
     };
     if (settings.assumed_load_kg) {
       check(node.find("assumed_load"), "assumed_load", *settings.assumed_load_kg, range.lowest_load_kg,
-            range.highest_load_kg, "kg");
+            range.highest_load_kg, "kg", "");
     } else if (contractions != nullptr) {
       const Node* weighing = node.find("weighing");
-      check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed",
-            *contractions->speed_mA_per_s, range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
-            in_unit(scenario_.rig.command_unit(), "mA/s"));
+      const double speed = *contractions->speed_mA_per_s, lowest = range.lowest_speed_mA_per_s,
+                   highest = range.highest_speed_mA_per_s;
+      const std::string unit = in_unit(scenario_.rig.command_unit(), "mA/s");
+      check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed", speed, lowest, highest,
+            unit,
+            fmt::format("write weighing: {{speed: {} {}}}, ",
+                        domain::write_number(std::clamp(speed, lowest, highest)), unit));
     }
   }
 

@@ -26,7 +26,7 @@ std::string unit_of_command_problem(const ColumnPlace& command, const plant::Val
   if (unit_problem(command.unit, wanted).empty()) return "";
   return fmt::format(
       "unit = {0}: the rig's valve is commanded in {1}; of another valve, write into the rig file "
-      "valve: {{zero_command: 0 {0}, span_command: ... {0}}}",
+      "valve: {{zero_command: 0 {0}, span_command: ... {0}, zero_pressure: 0 bar, span_pressure: ... bar}}",
       command.unit, wanted);
 }
 
