@@ -16,6 +16,17 @@ namespace {
 
 constexpr std::size_t longest_word = 100;  // nothing we know is longer; keeps garbage cheap
 
+/// Known words of which it is a part: `length` of rest_length. None of a part that many share.
+std::vector<std::string_view> with_part(std::string_view word, std::span<const std::string_view> known) {
+  constexpr std::size_t few = 3;
+  std::vector<std::string_view> found;
+  const std::string part = fmt::format("_{}_", spelled_alike(word));
+  for (const std::string_view candidate : known)
+    if (candidate != word && fmt::format("_{}_", candidate).find(part) != std::string::npos)
+      found.push_back(candidate);
+  return found.size() <= few ? found : std::vector<std::string_view>{};
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view left, std::string_view right) {
@@ -56,6 +67,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
   if (const Synonym* term = word.size() > longest_word ? nullptr : synonym(word))
     meant.assign(term->names.begin(), term->names.end());
   std::erase_if(meant, [&](std::string_view name) { return std::ranges::find(known, name) == known.end(); });
+  if (meant.empty() && word.size() <= longest_word) meant = with_part(word, known);
   if (!meant.empty()) return fmt::format("; did you mean {}?", fmt::join(meant, " or "));
   const auto best = nearest(word, known);
   return best ? fmt::format("; did you mean {}?", *best) : std::string{};

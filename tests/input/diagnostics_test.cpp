@@ -101,7 +101,8 @@ TEST(Suggest, OnlyWhatIsNear) {
   EXPECT_EQ(nearest("lwa", known), "law");
   EXPECT_EQ(nearest("temperature", known), std::nullopt);
   EXPECT_EQ(nearest("x", known), std::nullopt);
-  EXPECT_EQ(did_you_mean("radius", known), "");
+  EXPECT_EQ(did_you_mean("radius", known), "; did you mean rest_radius?");
+  EXPECT_EQ(did_you_mean("radiu", known), "");
   EXPECT_EQ(did_you_mean("rest_radus", known), "; did you mean rest_radius?");
 }
 
