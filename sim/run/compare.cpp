@@ -268,13 +268,11 @@ class Comparing {
       if (run.unreachable.any()) all.push_back(data::warning_of_run(id, run.unreachable.text()));
       if (const std::string stood = limit_warning(run, scenario_.rig); !stood.empty())
         all.push_back(data::warning_of_run(id, stood));
-      if (const std::string wrong = load_warning(run, settings_of(i)); !wrong.empty())
-        all.push_back(data::warning_of_run(id, wrong));
       if (run.followed())
-        if (const std::string off =
-                missed_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig);
-            !off.empty())
-          all.push_back(data::warning_of_run(id, off));
+        for (const std::string& wrong :
+             {load_warning(run, settings_of(i)),
+              missed_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig)})
+          if (!wrong.empty()) all.push_back(data::warning_of_run(id, wrong));
       if (moves(run.recording.left_speed, scenario_.rig) && scenario_.skip_s.value_or(0.0) == 0.0)
         all.push_back(data::warning_of_run(id, still_moves(run.recording.left_speed, scenario_.rig)));
       for (const auto& doubt : doubts(run.recording)) all.push_back(data::warning_of_run(id, doubt));
