@@ -21,7 +21,7 @@ struct CalibrationTerms {
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit.required("calibration", self.calibration,
-                   "what `calibrate` wrote; of the thesis's rig scenarios/thesis_calibration.yaml");
+                   "what `calibrate` wrote, or `thesis`: that of the thesis's rig");
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0, "load of its model; estimated if absent");
     visit("extrapolate_load", self.extrapolate_load,
           "whether a load, and a weighing speed, outside the calibrated range are allowed");

@@ -112,10 +112,12 @@ linear::Place place_of(const std::string& text, const plant::Rig& rig) {
     return {Of::pressure, *Pa};
   }
   if (const auto position = as(rig.has_angle() ? "rad" : "1")) return {Of::position, *position};
+  if (const auto length_m = rig.has_angle() ? std::nullopt : as("m"))
+    return {Of::position, *length_m / rig.muscle.rest_length_m};
   throw CLI::ValidationError(
       fmt::format("--at {}: no command as \"10 {}\"{} and no {}", text, name_of(unit),
                   unit == plant::CommandUnit::bar ? "" : ", no pressure as \"2.5 bar\"",
-                  rig.has_angle() ? "joint angle as \"20 deg\"" : "contraction ratio as 0.15"));
+                  rig.has_angle() ? "joint angle as \"20 deg\"" : "contraction as 0.15 or \"45 mm\""));
 }
 
 linear::Question question_of(const LineariseOptions& options, const plant::Rig& rig) {
@@ -189,10 +191,10 @@ void add_linearise(CLI::App& app, Asked& asked) {
                             "A rig at rest as a linear system: poles, zeros, Bode, margins of its loops");
   LineariseOptions& options = asked.when(verb, linearise);
   add_input(verb, options.file, "file", "Scenario with its controllers, or a rig", "SCENARIO|RIG");
-  verb.add_option(
-          "--at", options.places,
-          "Where: a command \"10 mA\", a muscle pressure \"2.5 bar\", a contraction ratio 0.15 or a joint "
-          "angle \"20 deg\"; may be repeated (default: the middle of the valve's commands)")
+  verb.add_option("--at", options.places,
+                  "Where: a command \"10 mA\", a muscle pressure \"2.5 bar\", a contraction 0.15 or \"45 "
+                  "mm\" or a joint "
+                  "angle \"20 deg\"; may be repeated (default: the middle of the valve's commands)")
       ->allow_extra_args(false)
       ->type_name("PLACE");
   verb.add_option_function<std::vector<std::string>>(

@@ -51,7 +51,10 @@ plant::CommandUnit unit_of_commands(const YamlFile& file, Problems& problems) {
 }  // namespace
 
 controllers::Calibration read_calibration(const std::filesystem::path& path, std::vector<InputFile>& inputs) {
-  const YamlFile file = load_yaml(path);
+  const YamlFile file =
+      path == shipped_calibration
+          ? parse_yaml(Source(std::string(shipped_calibration), std::string(thesis_calibration), ""))
+          : load_yaml(path);
   Problems problems;
   controllers::Calibration calibration;
   constexpr std::string_view also_allowed[] = {"schema"};

@@ -15,7 +15,12 @@ namespace mckibben::input {
 
 inline constexpr std::string_view calibration_schema = "mckibben-calibration/1";
 
-/// Reads a calibration; the file read is added to `inputs`. Throws MissingInput, BadInput.
+/// The calibration of the thesis's rig is built in: scenarios/thesis_calibration.yaml.
+inline constexpr std::string_view shipped_calibration = "thesis";
+extern const std::string_view thesis_calibration;
+
+/// Reads a calibration, that of the shipped name too; the file read is added to `inputs`. Throws
+/// MissingInput, BadInput.
 controllers::Calibration read_calibration(const std::filesystem::path& path, std::vector<InputFile>& inputs);
 
 /// Why it is none of this rig's: commands in another unit, or, for a controller that weighs with it, a tube

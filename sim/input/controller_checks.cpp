@@ -77,7 +77,8 @@ class ControllerChecker {
 
   // Several controllers may share a calibration: it is read, and complained about, once.
   const std::optional<controllers::Calibration>& calibration(const std::string& file, const Node& node) {
-    const auto path = (source_.folder() / file).lexically_normal();
+    const auto path = file == shipped_calibration ? std::filesystem::path(file)
+                                                  : (source_.folder() / file).lexically_normal();
     const auto [entry, is_new] = calibrations_.try_emplace(path.string());
     if (!is_new) return entry->second;
     read_other(source_, node, problems_,

@@ -176,7 +176,8 @@ std::string in_words(const std::string& message) {
     return "this line does not continue what stands above; check its indentation and the `key: value` form";
   if (message == said::END_OF_MAP_FLOW) return "a { is not closed by }, or a comma is missing before this";
   if (message == said::END_OF_SEQ_FLOW) return "a [ is not closed by ], or a comma is missing before this";
-  if (message == said::MAP_VALUE) return "no `:` is expected here; a text that holds `: ` needs quotes";
+  if (message == said::MAP_VALUE)
+    return "no `:` is expected here; check the indentation, and quote a text that holds `: `";
   if (message == said::MAP_KEY) return "no key is expected here; check the indentation";
   if (message == said::BLOCK_ENTRY) return "no `-` is expected here; check the indentation";
   if (message == said::FLOW_END) return "this closing bracket was never opened";

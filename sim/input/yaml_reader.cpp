@@ -69,9 +69,13 @@ void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) 
     if (std::ranges::find(allowed, today) != allowed.end() &&
         (child.key == today || map_.find(today) == &child))  // not beside the key of today
       continue;
+    // `0,05` in a map in one line: YAML takes the rest of the number for a key.
+    const bool cut_number = child.kind == Node::Kind::null && child.key.find_first_of("0123456789") == 0;
     problems_.error(source_, child.key_place,
                     fmt::format("unknown key {}{} (allowed: {})", shortened(child.key),
-                                did_you_mean(child.key, allowed), join(allowed)));
+                                cut_number ? "; decimals are written with a point, as in 0.05"
+                                           : did_you_mean(child.key, allowed),
+                                join(allowed)));
   }
 }
 
@@ -225,7 +229,10 @@ bool begin_file(const YamlFile& file, std::string_view schema, Problems& problem
   const std::string found =
       given->kind == Node::Kind::scalar ? shortened(given->text) : std::string(given->kind_name());
   problems.error(file.source, given->place,
-                 fmt::format("schema = {} is not what is read here: {}", found, schema));
+                 fmt::format("schema = {} is not what is read here: {}{}", found, schema,
+                             found.starts_with("mckibben-rig/") && schema.starts_with("mckibben-scenario/")
+                                 ? "; a scenario has this rig as `rig: FILE`"
+                                 : ""));
   return false;
 }
 

@@ -38,8 +38,9 @@ std::string root_lines(const char* what, const std::vector<Complex>& roots) {
 std::string margins_line(const linear::Loop& loop) {
   const linear::Margins& has = loop.margins;
   if (!has.stable && loop.calmed_m_per_s > 0.0)
-    return fmt::format("  {:18} unstable without friction; swings slower than {:.3g} m/s die out\n",
-                       loop.name, loop.calmed_m_per_s);
+    return fmt::format(
+        "  {:18} unstable without friction; swings slower than {:.3g} m/s die out (see --swing)\n", loop.name,
+        loop.calmed_m_per_s);
   if (!has.stable) return fmt::format("  {:18} unstable\n", loop.name);
   const auto at = [](double rad_per_s) { return fmt::format("at {:.3g} Hz", rad_per_s / turn_rad); };
   const std::string gain = has.gain ? fmt::format("{:.3g} ({:.1f} dB) {}", *has.gain,

@@ -55,8 +55,8 @@ std::string limit_warning(const Metrics& metrics, const std::optional<controller
   const bool low = lowest >= highest;
   if (metrics.swings)
     return fmt::format(
-        "it swings to and from the ends of its {}, where it stood for {:.0f} % of the time; lower gains, a "
-        "longer look_ahead or a slower target would help",
+        "it swings to and from the ends of its {}, where it stood for {:.0f} % of the time; lower gains "
+        "(or a longer look_ahead, where the controller has one) or a slower target would help",
         plant::command_key(rig), 100.0 * (lowest + highest));
   return fmt::format("it stood {}; {}", place_and_share(low, *limits, rig, low ? lowest : highest),
                      cause(low, *limits, rig));

@@ -42,6 +42,7 @@ TEST_F(Linearise, SaysPolesAndMarginsAndWritesWhatItSays) {
   EXPECT_EQ(point.at("poles_per_s").size(), 4u);
   EXPECT_EQ(point.at("states").size(), point.at("A").size());
   EXPECT_NEAR(point.at("outputs").at(0).at("at").get<double>(), 0.15, 1e-3);
+  EXPECT_EQ(result_of("loops.yaml --at '45 mm'").at("points").at(0).at("A"), point.at("A"));
   ASSERT_EQ(point.at("loops").size(), 4u);
   const auto &soft = point.at("loops").at(0), &wild = point.at("loops").at(1),
              &found = point.at("loops").at(2);

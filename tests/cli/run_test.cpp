@@ -206,8 +206,8 @@ TEST(Run, MarksWhatIsExtrapolatedAndWarnsOfWhatIsOutOfReach) {
              "controllers:\n"
              "  - {kind: open_loop, calibration: '" MCKIBBEN_SOURCE_DIR
              "/scenarios/thesis_calibration.yaml', extrapolate_load: true}\n"
-             "  - {kind: open_loop, name: far, calibration: '" MCKIBBEN_SOURCE_DIR
-             "/scenarios/thesis_calibration.yaml', extrapolate_load: true, extrapolate_target: true}\n"
+             "  - {kind: open_loop, name: far, calibration: thesis, extrapolate_load: true, "
+             "extrapolate_target: true}\n"
              "  - {kind: step_current, moves: []}\n");
   const auto said = mckibben("run far.yaml", scratch);
   ASSERT_EQ(said.status, 0) << said.err;
