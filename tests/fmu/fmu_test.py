@@ -7,19 +7,17 @@ usage: fmu_test.py PROGRAM IMPORTER
 import copy
 import csv
 import json
-import os
 import re
 import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ET
-import zipfile
 from pathlib import Path
 
 import standard
+from unpacked import Fmu, run
 
-PROGRAM, IMPORTER = sys.argv[1:3]
 RIG = """schema: mckibben-rig/1
 gauge: {fitted: true, resolution: 1 mbar}
 load_cell: {fitted: true, resolution: 0.1 N}
@@ -33,14 +31,6 @@ duration: 2.4 s
 target: {{kind: minimum_jerk, start: 0.05, moves: []}}
 controllers: [{{kind: sine_current, name: sine, low: 5 mA, high: 13 mA, period: 1.2 s}}]
 """
-
-
-def run(*arguments, folder, status=0):
-    done = subprocess.run([PROGRAM, *arguments], cwd=folder, text=True, capture_output=True)
-    assert done.returncode == status, done.stderr
-    return done
-
-
 LAW = """effects:
   hypotheses:
     - name: cord_creep
@@ -56,55 +46,6 @@ HELD = """schema: mckibben-rig/1
 mechanics: {kind: held_length}
 integrator: {tolerance: 1e-12}
 """
-
-
-class Fmu:
-    """One that was written and unpacked."""
-
-    def __init__(self, folder, rig, version, *options):
-        self.path, self.version = folder / f"{version}.fmu", version
-        run("fmu", str(rig), "--fmi", version, "--out", str(self.path), *options, folder=folder)
-        self.folder = folder / f"unpacked {version}"
-        with zipfile.ZipFile(self.path) as archive:
-            assert archive.testzip() is None
-            archive.extractall(self.folder)
-        self.description = ET.parse(self.folder / "modelDescription.xml").getroot()
-        self.token = self.description.get("guid" if version == "2.0" else "instantiationToken")
-        platform = "linux64" if version == "2.0" else "x86_64-linux"
-        identifier = self.description.find("CoSimulation").get("modelIdentifier")
-        self.library = self.folder / "binaries" / platform / f"{identifier}.so"
-        self.variables = list(self.description.find("ModelVariables"))
-        self.reference = {each.get("name"): int(each.get("valueReference")) for each in self.variables}
-
-    def typed(self, variable):
-        """The element that has unit, start, min and max, and its type."""
-        return variable[0] if self.version == "2.0" else variable
-
-    def answers(self, commands, token=None, locale={}):
-        resources = self.folder / "resources"
-        resources = resources.as_uri() if self.version == "2.0" else f"{resources}/"
-        done = subprocess.run([IMPORTER, self.library, self.version[0], token or self.token, resources], text=True,
-                              cwd=self.folder, input="\n".join(commands), capture_output=True, timeout=300,
-                              env={**os.environ, **locale})
-        assert done.returncode == 0, done.stderr
-        return done.stdout.splitlines()
-
-    def ride(self, currents, outputs, before=(), instance=0, tick=0.012):
-        """Commands of a ride under these currents; outputs are asked for at each tick."""
-        commands = [f"{instance} {line}" for line in before]
-        commands += [f"{instance} set {self.reference['current']} {currents[0]}", f"{instance} init 0",
-                     f"{instance} start", *self.look(outputs, instance)]
-        for k, current in enumerate(currents[:-1]):
-            commands += [f"{instance} set {self.reference['current']} {current}",
-                         f"{instance} step {k * tick!r} {tick}", *self.look(outputs, instance)]
-        return commands
-
-    def look(self, outputs, instance=0):
-        return [f"{instance} {'count' if name == 'counts' else 'get'} {self.reference[name]}" for name in outputs]
-
-    def on(self, ticks, outputs=()):
-        """Further ticks."""
-        return [line for k in ticks for line in (f"0 step {k * 0.012!r} 0.012", *self.look(outputs))]
 
 
 def table(folder, rig):
@@ -180,45 +121,32 @@ class AnFmu(unittest.TestCase):
             for source in ("CMakeLists.txt", "LICENSE"):
                 self.assertTrue((fmu.folder / "sources" / source).is_file(), source)
 
-    def test_gives_the_numbers_of_run(self):
-        rows = table(self.folder, "rig.yaml")
-        currents = [float(row["current_mA"]) for row in rows]
-        for fmu in self.each("--true-states"):
-            load = f"set {fmu.reference['load']} 16.138"
-            answers = iter(fmu.answers(fmu.ride(currents, COLUMNS, [load])))
-            for k, row in enumerate(rows):
-                for name, column in COLUMNS.items():
-                    expected, is_now = float(row[column]), float(next(answers))
-                    self.assertAlmostEqual(is_now, expected, delta=1e-9 * max(1.0, abs(expected)), msg=f"{name} in row {k}")
-            self.assertGreater(max(float(row["contraction_ratio"]) for row in rows), 0.1)
+    def ridden(self, rows, fmu, before=(), columns=COLUMNS):
+        """What an FMU with the thesis's load shows under the currents of these rows of `run`, and what they have."""
+        ride = fmu.ride([float(row["current_mA"]) for row in rows], columns,
+                        [f"set {fmu.reference['load']} 16.138", *before])
+        expected = [float(row[column]) for row in rows for column in columns.values()]
+        return list(zip(map(float, fmu.answers(ride)), expected, strict=True))
 
-    def test_of_another_parameter_is_that_rig(self):
+    def agrees(self, *ride, **options):
+        for k, (is_now, expected) in enumerate(self.ridden(*ride, **options)):
+            self.assertAlmostEqual(is_now, expected, delta=1e-9 * max(1.0, abs(expected)), msg=k)
+
+    def test_gives_the_numbers_of_run_and_of_another_parameter_of_that_rig(self):
         (self.folder / "thick.yaml").write_text(RIG + "muscle: {rest_radius: 7.9 mm}\n")
-        rows = table(self.folder, "thick.yaml")
-        currents = [float(row["current_mA"]) for row in rows]
+        rows, of_thick = table(self.folder, "rig.yaml"), table(self.folder, "thick.yaml")
+        self.assertGreater(max(float(row["contraction_ratio"]) for row in rows), 0.1)
         for fmu in self.each("--true-states"):
-            before = [f"set {fmu.reference['load']} 16.138", f"set {fmu.reference['muscle.rest_radius']} 0.0079"]
-            last = fmu.answers(fmu.ride(currents, ["contraction_ratio"], before))[-1]
-            self.assertAlmostEqual(float(last), float(rows[-1]["contraction_ratio"]), delta=1e-9)
+            self.agrees(rows, fmu)
+            self.agrees(of_thick, fmu, [f"set {fmu.reference['muscle.rest_radius']} 0.0079"])
 
-    def test_goes_on_from_a_saved_state_to_the_same_bits_and_beside_others(self):
+    def test_is_the_same_beside_others(self):
         for fmu in self.each("--true-states"):
             outputs = ["contraction_ratio", "muscle_pressure", "counts"]
             first = fmu.ride([5 + 0.1 * k for k in range(60)], outputs)
-            on = [f"0 set {fmu.reference['current']} 12", *fmu.on(range(59, 120), outputs)]
-            answers = fmu.answers([*first, "0 save", *on, "0 restore", *on])
-            length = 61 * len(outputs)
-            self.assertEqual(len(answers), 60 * len(outputs) + 2 * length)
-            self.assertEqual(answers[-length:], answers[-2 * length:-length])
             other = fmu.ride([14 - 0.1 * k for k in range(60)], outputs, instance=1)
             both = fmu.answers([line for lines in zip(first, other) for line in lines])
             self.assertEqual(both, [line for lines in zip(fmu.answers(first), fmu.answers(other)) for line in lines])
-
-    def test_again_from_the_start_is_the_same(self):
-        for fmu in self.each():
-            ride = fmu.ride([5, 9, 12, 12, 12], ["counts", "gauge_pressure"])
-            answers = fmu.answers([*ride, "0 reset", *ride])
-            self.assertEqual(answers[:10], answers[10:])
 
     def test_another_load_hangs_from_the_next_step_on(self):
         for fmu in self.each("--true-states"):
@@ -230,12 +158,12 @@ class AnFmu(unittest.TestCase):
     def test_says_what_is_wrong(self):
         for fmu in self.each():
             radius = fmu.reference["muscle.rest_radius"]
-            self.assertEqual(fmu.answers([f"0 set {radius} 7.5"])[-1], "failed")
-            self.assertIn("muscle.rest_radius = 7.5", fmu.answers([f"0 set {radius} 7.5"])[0])
+            said, failed = fmu.answers([f"0 set {radius} 7.5"])
+            self.assertIn("muscle.rest_radius = 7.5", said)
+            self.assertEqual(failed, "failed")
             late = fmu.answers(["0 init 0", "0 start", f"0 set {radius} 0.0076"])
             self.assertEqual(late, ["muscle.rest_radius: parameters are set before the start", "failed"])
             self.assertEqual(fmu.answers(["0 init 0", "0 start", "0 step 0.5 0.012"])[-1], "failed")
-            self.assertEqual(fmu.answers(["0 step 0 0.012"])[-1], "failed")
             self.assertEqual(fmu.answers(["0 set 999999 1"])[-1], "failed")
             self.assertEqual(fmu.answers(["0 init 0"], token="{another}")[-1], "failed")
             zero, span = fmu.reference["valve.zero_command"], fmu.reference["valve.span_command"]
@@ -300,19 +228,15 @@ class AnFmu(unittest.TestCase):
             self.assertNotIn("current", fmu.reference)
             zero = next(each for each in fmu.variables if each.get("name") == "valve.zero_command")
             self.assertEqual(fmu.typed(zero).get("unit"), "V")
-            risen = fmu.answers(["0 init 0", "0 start", f"0 set {fmu.reference['command']} 3", *fmu.on(range(100)),
-                                 f"0 get {fmu.reference['encoder_contraction_ratio']}"])
-            self.assertGreater(float(risen[0]), 0.05)
+            self.assertGreater(fmu.moved("encoder_contraction_ratio", ({}, 0), ({"command": 3}, 100))[-1], 0.05)
 
     def test_of_a_pair_has_two_currents(self):
         fmu = Fmu(self.folder, "thesis_pair", "2.0", "--true-states")
         self.assertNotIn("load", fmu.reference)
-        one, two, angle = (fmu.reference[name] for name in ("current_1", "current_2", "encoder_angle"))
-        answers = fmu.answers([f"0 set {one} 12", f"0 set {two} 8", "0 init 0", "0 start", f"0 set {one} 16",
-                               *fmu.on(range(100)), f"0 get {angle}", f"0 set {one} 6", f"0 set {two} 14",
-                               *fmu.on(range(100, 250)), f"0 get {angle}"])
-        self.assertGreater(float(answers[0]), 0.1)
-        self.assertLess(float(answers[1]), 0.0)
+        _, up, down = fmu.moved("encoder_angle", ({"current_1": 12, "current_2": 8}, 0), ({"current_1": 16}, 100),
+                                ({"current_1": 6, "current_2": 14}, 150))
+        self.assertGreater(up, 0.1)
+        self.assertLess(down, 0.0)
 
     def test_of_a_lever_has_an_angle_and_a_load(self):
         self.rig.write_text("schema: mckibben-rig/1\nmechanics:\n  kind: lever\n"
@@ -320,24 +244,23 @@ class AnFmu(unittest.TestCase):
         for fmu in self.each("--true-states"):
             self.assertNotIn("encoder_contraction_ratio", fmu.reference)
             self.assertIn("mechanics.arms[1].arm", fmu.reference)
-            current, load, angle = (fmu.reference[name] for name in ("current", "load", "encoder_angle"))
-            raised = []
-            for kg in (0.5, 3.0):
-                answers = fmu.answers([f"0 set {load} {kg}", f"0 set {current} 8", "0 init 0", "0 start",
-                                       f"0 set {current} 15", *fmu.on(range(200)), f"0 get {angle}"])
-                raised.append(float(answers[0]))
-            self.assertGreater(raised[1], 0.2)
-            self.assertGreater(raised[0], raised[1])
+            light, heavy = (fmu.moved("encoder_angle", ({"load": kg, "current": 8}, 0), ({"current": 15}, 200))[-1]
+                            for kg in (0.5, 3.0))
+            self.assertGreater(heavy, 0.2)
+            self.assertGreater(light, heavy)
 
-    def test_a_state_as_bytes_goes_on_in_another_program(self):
+    def test_goes_on_from_a_saved_state_to_the_same_bits_here_and_as_bytes_in_another_program(self):
         late = "  reading_delay: {time: 20 ms}\n  command_delay: {time: 30 ms}\n"
-        self.rig.write_text("schema: mckibben-rig/1\n" + LAW + late)
+        plays = "  muscle_leak: {conductance: 2e-12 m3/(s.Pa)}\n  valve_hysteresis: {half_width: 0.05 bar}\n"
+        self.rig.write_text("schema: mckibben-rig/1\n" + LAW + late + plays)
         outputs = ["contraction_ratio", "muscle_pressure", "counts"]
         for fmu in self.each("--true-states"):
             thick = f"set {fmu.reference['muscle.rest_radius']} 0.0079"
             begin = fmu.ride([5 + 0.1 * k for k in range(60)], outputs, [thick])
             on = [f"0 set {fmu.reference['current']} 12", *fmu.on(range(59, 90), outputs)]
-            first = fmu.answers([*begin, "0 save", "0 write state", *on])[60 * len(outputs):]
+            answers = fmu.answers([*begin, "0 save", "0 write state", *on, "0 restore", *on])[60 * len(outputs):]
+            first = answers[:len(answers) // 2]
+            self.assertEqual(answers, first + first)
             self.assertEqual(fmu.answers(["0 read state", "0 restore", *on]), first)
             self.assertEqual(fmu.answers(["0 read state", "0 restore", "0 save", "0 write again", "0 read again", "0 restore",
                                           *on]), first)
@@ -354,14 +277,12 @@ class AnFmu(unittest.TestCase):
     def test_carries_laws_of_its_users(self):
         self.rig.write_text("schema: mckibben-rig/1\nintegrator: {tolerance: 1e-12}\n" + LAW)
         rows = table(self.folder, "rig.yaml")
-        currents = [float(row["current_mA"]) for row in rows]
         for fmu in self.each("--true-states"):
-            load, size = f"set {fmu.reference['load']} 16.138", fmu.reference["effects.hypotheses.cord_creep.k"]
-            ride = fmu.ride(currents, ["contraction_ratio"], [load])
-            for row, is_now in zip(rows, fmu.answers(ride), strict=True):
-                self.assertAlmostEqual(float(is_now), float(row["contraction_ratio"]), delta=1e-9)
-            without = fmu.answers(fmu.ride(currents, ["contraction_ratio"], [load, f"set {size} 0"]))
-            self.assertGreater(max(abs(float(a) - float(row["contraction_ratio"])) for a, row in zip(without, rows)), 1e-3)
+            size = fmu.reference["effects.hypotheses.cord_creep.k"]
+            height = {"contraction_ratio": "contraction_ratio"}
+            self.agrees(rows, fmu, columns=height)
+            without = self.ridden(rows, fmu, [f"set {size} 0"], height)
+            self.assertGreater(max(abs(is_now - with_it) for is_now, with_it in without), 1e-3)
             self.assertIn("outside its range", fmu.answers([f"0 set {size} 6000"])[0])
 
     def test_of_a_held_muscle_takes_a_length_and_gives_a_force(self):
