@@ -1,5 +1,7 @@
 // What a side precomputes, and what is asked of it between instants.
 
+#include <algorithm>
+
 #include <plant/side.hpp>
 
 namespace mckibben::plant {
@@ -39,12 +41,12 @@ double SideOf<P>::air_kg(const Stroke<double>& joint, const SideState<double>& s
   return ((state.valve_pressure_Pa + atmosphere) * rig_.valve.volume_m3 +
           (state.muscle_pressure_Pa + atmosphere) *
               braid_.volume_m3(stroke(joint, memory).contraction_ratio)) /
-         gas_energy_J_per_kg_;
+         gas_energy_J_per_kg();
 }
 
 template <class P>
 double SideOf<P>::valve_air_kg(const SideState<double>& state) const {
-  return (state.valve_pressure_Pa + rig_.gas.atmosphere_Pa) * rig_.valve.volume_m3 / gas_energy_J_per_kg_;
+  return (state.valve_pressure_Pa + rig_.gas.atmosphere_Pa) * rig_.valve.volume_m3 / gas_energy_J_per_kg();
 }
 
 template <class P>

@@ -1,5 +1,5 @@
-// Parameters of what the gas comes through: servo valve or regulator, and hose. Laws: flow.hpp, side.hpp. How
-// fields are listed: rig.hpp.
+// Parameters of what the gas comes through: servo valve or regulator, and hose. Laws: flow.hpp,
+// valve_flow.hpp. How fields are listed: rig.hpp.
 #pragma once
 
 #include <algorithm>
@@ -120,8 +120,7 @@ struct ValveOf {
       if (!ListsAll<Visitor>) visit_critical_ratio(self, visit);
     }
   }
-  template <class Self, class Visitor>
-  static void visit_critical_ratio(Self& self, Visitor& visit) {
+  static void visit_critical_ratio(auto& self, auto& visit) {
     visit("critical_ratio", self.critical_ratio, "1", 0.01, 0.9,
           "critical pressure ratio of valve, hose and leaks, b_c");
   }
@@ -186,8 +185,7 @@ struct ValveOf {
     zero_pressure_Pa = exhaust_pressure_Pa;
     span_pressure_Pa = supply_pressure_Pa;
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (seals()) return;
     if (is_on_off() && leak_m3_per_s_Pa >= conductance_m3_per_s_Pa)
       report("leak", "a shut valve must pass less than an open one, conductance");
@@ -223,8 +221,7 @@ struct HoseOf {
   P conductance_m3_per_s_Pa = 1.5e-8;
   P linear_zone_Pa = 1.0e3;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 1e-12, 1e-5, "sonic conductance C_h");
     visit("linear_zone", self.linear_zone_Pa, "Pa", 1.0, 1e5,
           "pressure difference below which flow is linear (valve and hose)");
