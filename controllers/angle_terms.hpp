@@ -23,8 +23,7 @@ struct AngleTerms : CommandTerms {
   /// `fastest_joint` as contraction ratio.
   std::optional<double> fastest_load_per_s(const Knowledge& known) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     constexpr double turn_rad = 2.0 * std::numbers::pi;
     CommandTerms::fields(self, visit);
     visit("lowest_angle", self.lowest_angle_rad, "rad", -turn_rad, turn_rad,
@@ -34,8 +33,7 @@ struct AngleTerms : CommandTerms {
     visit("fastest_joint", self.fastest_joint_rad_per_s, "rad/s", 1e-2, 1e4,
           "speed that the joint never has: counts that jump further from tick to tick are rejected");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (lowest_angle_rad && highest_angle_rad && *highest_angle_rad <= *lowest_angle_rad)
       report("highest_angle", "must be above lowest_angle");
   }

@@ -18,16 +18,14 @@ struct CalibrationTerms {
   std::optional<double> assumed_load_kg = std::nullopt;
   bool extrapolate_load = false;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("calibration", self.calibration,
                    "what `calibrate` wrote, or `thesis`: that of the thesis's rig");
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0, "load of its model; estimated if absent");
     visit("extrapolate_load", self.extrapolate_load,
           "whether a load, and a weighing speed, outside the calibrated range are allowed");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (calibration.empty()) report("calibration", "must name a file");
   }
 };
@@ -39,8 +37,7 @@ struct CalibratedSettings : CalibrationTerms {
 
   void follow(const CurrentRange& range) { weighing.follow(range); }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     CalibrationTerms::fields(self, visit);
     visit("weighing", self.weighing, "how the load is weighed before the run, unless it is assumed");
     visit("extrapolate_target", self.extrapolate_target,

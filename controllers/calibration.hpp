@@ -16,8 +16,7 @@ struct FrictionModel {
 
   double coefficient(double contraction_ratio, double current_speed_mA_per_s) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("f0", self.f0, "1", -1e6, 1e6, "constant term");
     visit.required("f1", self.f1_s2_per_mA2, "s2/mA2", -1e6, 1e6, "factor of the squared command speed");
     visit.required("f2", self.f2, "1", -1e6, 1e6, "factor of the contraction ratio");
@@ -34,8 +33,7 @@ double at_load(const InLoad& polynomial, double load_kg);
 struct ContractionModel {
   InLoad a0, a1_0, a1_1, a2_0, a2_1, a3, a4;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     constexpr double any = 1e30;
     visit.required("a0", self.a0, "1", -any, any, "T 4.14, in Pa");
     visit.required("a1_0", self.a1_0, "1", -any, any, "T 4.15, in Pa.s/mA");
@@ -52,8 +50,7 @@ struct ContractionModel {
 struct RelaxationModel {
   InLoad b0_0, b0_1, b1, b2, b3, b4_0, b4_1, b4_2;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     constexpr double any = 1e30;
     visit.required("b0_0", self.b0_0, "1", -any, any, "T 4.21, in Pa.s/mA");
     visit.required("b0_1", self.b0_1, "1", -any, any, "T 4.22, in Pa");
@@ -72,8 +69,7 @@ struct CalibratedRange {
   double lowest_load_kg = 0.0, highest_load_kg = 0.0;
   double lowest_speed_mA_per_s = 0.0, highest_speed_mA_per_s = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("lowest_ratio", self.lowest_ratio, "1", 0.0, 1.0, "smallest contraction ratio used");
     visit.required("highest_ratio", self.highest_ratio, "1", 0.0, 1.0, "largest contraction ratio used");
     visit.required("lowest_load", self.lowest_load_kg, "kg", 0.0, 500.0, "lightest load");
@@ -91,8 +87,7 @@ struct FittedCoefficient {
   double condition = 0.0;  ///< condition number of the scaled least-squares problem
   bool determined = true;  ///< false: the data cannot tell it from zero or from its neighbours
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     constexpr double any = 1e300;
     visit.required("name", self.name, "which coefficient");
     visit.required("value", self.value, "1", -any, any, "its value");
@@ -109,8 +104,7 @@ struct TubePull {
 
   double pull_N(double contraction_ratio, double rest_length_m) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("stiffness", self.stiffness_N_per_m, "N/m", 0.0, 1e4, "k_b");
     visit("force", self.force_N, "N", 0.0, 1e3, "F_b");
     visit("ratio", self.ratio, "1", 1e-3, 1.0, "e_b");
@@ -126,8 +120,7 @@ struct Calibration {
   CalibratedRange range;
   std::vector<FittedCoefficient> details;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("command_unit", self.command_unit,
           "what the rig's valve is commanded in, and what this has in place of mA: V or bar; mA if absent");
     visit("tube_pull", self.tube_pull,

@@ -16,8 +16,7 @@ namespace mckibben::controllers {
 struct JointTerms : AngleTerms {
   std::optional<double> co_contraction_Pa = std::nullopt;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("co_contraction", self.co_contraction_Pa, "Pa", 0.0, 1e7,
           "P0 that is held; if absent, what nominal muscles take for the wanted stiffness, or the middle of "
           "the valves' pressures where none is wanted");

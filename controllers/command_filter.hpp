@@ -25,8 +25,7 @@ struct CommandFilter {
   double frequency_Hz = 1.0;
   double damping = 0.7071;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("kind", self.kind, "low_pass: second order; notch: rejects one frequency");
     visit.required("frequency", self.frequency_Hz, "Hz", 1e-3, 1e4,
                    "f: below half the sampling rate, 1/(2 tick)");
@@ -49,8 +48,7 @@ struct CommandTerms {
   std::optional<double> largest_current_speed_mA_per_s = std::nullopt;
   std::optional<CommandFilter> command_filter = std::nullopt;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("largest_command_speed", self.largest_current_speed_mA_per_s, "mA/s", 1e-3, 1e6,
           "how fast each command may change; at once if absent");
     visit("command_filter", self.command_filter, "filter on each command; none if absent");

@@ -21,8 +21,7 @@ struct ExternalSettings : GuestTerms {
 
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit.required("command", self.command,
                    "what the shell is to run, in the folder of this file: one process for each run");
@@ -30,8 +29,7 @@ struct ExternalSettings : GuestTerms {
     visit("start_limit", self.start_limit_s, "s", 1e-3, 3600.0, "longest that it may take for the first one");
     GuestTerms::fields(self, visit);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (command.find_first_not_of(" \t\n") == std::string::npos) report("command", "must name a program");
     OutputLimits::rules(report);
   }

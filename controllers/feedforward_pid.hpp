@@ -18,14 +18,12 @@ struct FeedforwardPidSettings : CalibrationTerms, PidTerms {
   /// Throws std::invalid_argument if a gain is missing, or what is reachable was not computed.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     CalibrationTerms::fields(self, visit);
     PidTerms::fields(self, visit);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     CalibrationTerms::rules(report);
     PidTerms::rules(report);
   }

@@ -18,8 +18,7 @@ struct GuestTerms : SafetyTerms, OutputLimits {
   bool tell_load = false;
   int preparation_ticks = 0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("tell_load", self.tell_load, "whether it gets the load of its run");
     visit("preparation_ticks", self.preparation_ticks, 0, 1000000,
           "ticks before tick 0 that are not recorded: to weigh the load, for instance");

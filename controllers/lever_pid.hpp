@@ -20,8 +20,7 @@ struct LeverPidSettings : PidForm, OutputLimits, AngleTerms, RestTerms {
   /// Throws std::invalid_argument if a gain is missing, or the rig has no angle.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit("proportional", self.proportional_mA, "mA/rad", 0.0, 1e6,
           "gain K, command for an error of a radian; tuned if absent");
@@ -34,8 +33,7 @@ struct LeverPidSettings : PidForm, OutputLimits, AngleTerms, RestTerms {
     AngleTerms::fields(self, visit);
     RestTerms::fields(self, visit);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     OutputLimits::rules(report);
     AngleTerms::rules(report);
     RestTerms::rules(report, *this);

@@ -22,8 +22,7 @@ struct ModelInverseSettings : ModelTerms {
   /// Throws std::invalid_argument if there is no model.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     ModelTerms::fields(self, visit);
   }
@@ -36,8 +35,7 @@ struct ModelInverseFeedbackSettings : ModelTerms, ObserverTerms {
   /// Throws std::invalid_argument if there is no model.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     ModelTerms::fields(self, visit);
     ObserverTerms::fields(self, visit);

@@ -18,8 +18,7 @@ struct ObserverTerms {
   int feedback_delay_ticks = 0;
   std::optional<double> filter_time_s = std::nullopt;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("feedback_delay_ticks", self.feedback_delay_ticks, 0, 1000, "age of the counts that are used");
     visit("filter_time", self.filter_time_s, "s", 1e-4, 100.0,
           "time constant with which the model's error is learned; 60 ms and the feedback delay if absent");

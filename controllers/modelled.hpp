@@ -26,8 +26,7 @@ struct ModelTerms : PlansWithModel, SafetyTerms {
     if (!weighing_speed_mA_per_s) weighing_speed_mA_per_s = range.width_mA() / 32.0;
   }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     PlansWithModel::fields(self, visit);
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0,
           "load of its model; weighed before the run if absent");

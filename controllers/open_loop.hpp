@@ -31,8 +31,7 @@ struct OpenLoopSettings : CalibratedSettings, SafetyTerms {
 
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     CalibratedSettings::fields(self, visit);
     visit("mode", self.mode, "along the scenario's target (trajectory), or to one point (triangle)");
@@ -41,8 +40,7 @@ struct OpenLoopSettings : CalibratedSettings, SafetyTerms {
           "triangle: contraction speed to pass it at; negative on the way down");
     SafetyTerms::fields(self, visit);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     CalibratedSettings::rules(report);
     check_height(report, "to", to);
     const bool given = to.value > 0.0 && speed_per_s != 0.0;

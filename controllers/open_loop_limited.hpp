@@ -18,8 +18,7 @@ struct OpenLoopLimitedSettings : CalibratedSettings, SafetyTerms {
   /// Throws std::invalid_argument if `knowledge.reach` is empty.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     CalibratedSettings::fields(self, visit);
     SafetyTerms::fields(self, visit);

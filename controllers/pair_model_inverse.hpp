@@ -17,8 +17,7 @@ namespace mckibben::controllers {
 struct PairModelTerms : PlansWithModel, JointTerms {
   double assumed_load_kg = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     PlansWithModel::fields(self, visit);
     visit("assumed_load", self.assumed_load_kg, "kg", 0.0, 500.0, "load in the hand of its model");
     JointTerms::fields(self, visit);
@@ -32,8 +31,7 @@ struct PairModelInverseSettings : PairModelTerms {
   /// Throws std::invalid_argument if there is no model, or the rig has one muscle.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     PairModelTerms::fields(self, visit);
   }
@@ -46,8 +44,7 @@ struct PairModelInverseFeedbackSettings : PairModelTerms, ObserverTerms {
   /// Throws std::invalid_argument if there is no model, or the rig has one muscle.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     PairModelTerms::fields(self, visit);
     ObserverTerms::fields(self, visit);

@@ -18,8 +18,7 @@ struct PairPidSettings : PidForm, JointTerms {
   /// Throws std::invalid_argument if a gain is missing, or the rig has one muscle.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit("proportional", self.proportional_mA, "mA/rad", 0.0, 1e6,
           "gain K, by which the command to muscle 1 rises for an error of the angle; tuned if absent");
@@ -28,10 +27,7 @@ struct PairPidSettings : PidForm, JointTerms {
           "load in the hand at which missing gains are tuned; the scenario's median load if absent");
     JointTerms::fields(self, visit);
   }
-  template <class Report>
-  void rules(Report& report) const {
-    JointTerms::rules(report);
-  }
+  void rules(auto& report) const { JointTerms::rules(report); }
 };
 
 }  // namespace mckibben::controllers

@@ -30,8 +30,7 @@ struct PidForm {
   /// Whether some gain is left to tuning.
   bool needs_tuning() const { return !proportional_mA || !integral_time_s || !derivative_time_s; }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("integral_time", self.integral_time_s, "s", 0.0, 1e6,
           "Ti; 0 for no integral action, tuned if absent");
     visit("derivative_time", self.derivative_time_s, "s", 0.0, 1e3,
@@ -50,8 +49,7 @@ struct PidForm {
 struct PidTerms : PidForm, SafetyTerms, OutputLimits {
   std::optional<double> dead_zone = std::nullopt;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("proportional", self.proportional_mA, "mA", 0.0, 1e6,
           "gain K, command for a whole contraction ratio; tuned if absent");
     PidForm::fields(self, visit);
@@ -105,13 +103,11 @@ struct RestTerms {
     if (!rest_current_mA) rest_current_mA = limits.lowest_current_mA;
   }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("rest_command", self.rest_current_mA, "mA", 0.0, 100.0,
           "command before the first reading, and output without error; lowest_command if absent");
   }
-  template <class Report>
-  void rules(Report& report, const OutputLimits& limits) const {
+  void rules(auto& report, const OutputLimits& limits) const {
     if (rest_current_mA && ((limits.lowest_current_mA && *rest_current_mA < *limits.lowest_current_mA) ||
                             (limits.highest_current_mA && *rest_current_mA > *limits.highest_current_mA)))
       report("rest_command", "must lie between lowest_command and highest_command");
@@ -127,14 +123,12 @@ struct PidSettings : PidTerms, RestTerms {
   /// Throws std::invalid_argument if a gain is missing.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     PidTerms::fields(self, visit);
     RestTerms::fields(self, visit);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     PidTerms::rules(report);
     RestTerms::rules(report, *this);
   }

@@ -18,15 +18,13 @@ struct PluginSettings : GuestTerms {
 
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit.required("library", self.library, "shared library, as a path from this file");
     visit("settings", self.settings, "any text, which the library is given");
     GuestTerms::fields(self, visit);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (library.empty()) report("library", "must name a file");
     OutputLimits::rules(report);
   }

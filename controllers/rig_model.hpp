@@ -66,8 +66,7 @@ struct PlansWithModel {
     return std::max(1, static_cast<int>(std::lround(look_ahead_s.value_or(usual_look_ahead_s) / tick_s)));
   }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("rig", self.rig,
           "rig of its model, a shipped name or the path of a rig file; the scenario's if left out");
     visit("look_ahead", self.look_ahead_s, "s", 1e-4, 100.0,

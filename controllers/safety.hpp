@@ -30,8 +30,7 @@ struct SafetyTerms : CommandTerms {
   }
   double allowed(double target) const { return highest_target ? std::min(target, *highest_target) : target; }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     CommandTerms::fields(self, visit);
     visit("highest_target", self.highest_target, "1", 0.0, 1.0,
           "contraction ratio at which a higher target is cut (T 2.3: above 0.20 the muscle is at risk)");
@@ -55,16 +54,14 @@ struct OutputLimits {
     return {std::min(*lowest_current_mA, highest_mA), highest_mA};
   }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("lowest_command", self.lowest_current_mA, "mA", 0.0, 100.0,
           "lower limit of the output; the valve's zero_command if absent");
     visit("highest_command", self.highest_current_mA, "mA", 0.0, 100.0,
           "upper limit of the output; the valve's span_command, "
           "or the DAC's largest_command if that is lower, if absent");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (lowest_current_mA && highest_current_mA && *highest_current_mA <= *lowest_current_mA)
       report("highest_command", "must be above lowest_command");
   }

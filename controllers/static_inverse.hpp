@@ -24,8 +24,7 @@ struct StaticInverseSettings : SafetyTerms {
 
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     constexpr double degree_rad = std::numbers::pi / 180.0;
     visit("name", self.name, "name in tables and file names");
     visit.required("assumed_load", self.assumed_load_kg, "kg", 0.0, 500.0, "load of its model, m");

@@ -48,8 +48,7 @@ struct Stiffness {
 };
 
 /// Catches "30" written for "30 mm".
-template <class Report>
-void check_height(Report& report, std::string_view key, const Height& height) {
+void check_height(auto& report, std::string_view key, const Height& height) {
   if (!height.in_metres && (height.value < 0.0 || height.value >= 1.0))
     report(key, "a contraction ratio lies between 0 and 1; a length needs its unit");
 }
@@ -65,15 +64,11 @@ struct MoveOf {
   double at_s = 0.0;
   Value to;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("at", self.at_s, "s", 0.0, 1e6, "time of arrival");
     visit.required("to", self.to, Value::meaning);
   }
-  template <class Report>
-  void rules(Report& report) const {
-    check_height(report, "to", to);
-  }
+  void rules(auto& report) const { check_height(report, "to", to); }
 };
 
 /// Leave for a height and be there after `lasting`.
@@ -85,16 +80,12 @@ struct GlideOf {
 
   double end_s() const { return at_s + lasting_s; }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("at", self.at_s, "s", 0.0, 1e6, "time of departure");
     visit.required("lasting", self.lasting_s, "s", 1e-3, 1e6, "time from departure to arrival");
     visit.required("to", self.to, Value::meaning);
   }
-  template <class Report>
-  void rules(Report& report) const {
-    check_height(report, "to", to);
-  }
+  void rules(auto& report) const { check_height(report, "to", to); }
 };
 
 template <class Report, class Value>
@@ -124,13 +115,11 @@ struct MovesOf {
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("start", self.start, "before the first move");
     visit.required("moves", self.moves, Path::moves);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     check_height(report, "start", start);
     check_order(report, "moves", moves);
   }
@@ -181,15 +170,13 @@ struct SineOf {
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("mean", self.mean, "middle of the sine");
     visit.required("amplitude", self.amplitude, "half of what lies between lowest and highest");
     visit.required("period", self.period_s, "s", 1e-3, 1e6, "time of one cycle");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at the mean before the sine begins");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     check_height(report, "mean", mean);
     check_height(report, "amplitude", amplitude);
     if (amplitude.value <= 0.0) report("amplitude", "must be above zero");
@@ -208,15 +195,13 @@ struct TriangleOf {
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("low", self.low, "lowest, where the triangle begins");
     visit.required("high", self.high, "highest");
     visit.required("period", self.period_s, "s", 1e-3, 1e6, "time from low to high and back");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at low before the triangle begins");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     check_height(report, "low", low);
     check_height(report, "high", high);
     if constexpr (std::same_as<Value, Height>)
@@ -235,12 +220,10 @@ struct PointsOf {
   double at(double time_s, double rest_length_m) const;
   std::vector<double> knots_s() const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("points", self.points, "times and values in order of time");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (points.empty()) report("points", "at least one point is needed");
     check_order(report, "points", points);
   }

@@ -29,8 +29,7 @@ struct SineCurrent {
   double at(double time_s) const;
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest command, where the sine begins");
     visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest command");
@@ -38,8 +37,7 @@ struct SineCurrent {
     visit("cycles", self.cycles, "1", 0.01, 1e6, "number of cycles, then the last value; endless if absent");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at low before the sine begins");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (high_mA <= low_mA) report("high", "must be above low");
   }
 };
@@ -57,8 +55,7 @@ struct TriangleCurrent {
   double at(double time_s) const;
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest command, where the triangle begins");
     visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest command");
@@ -67,8 +64,7 @@ struct TriangleCurrent {
     visit("cycles", self.cycles, "1", 0.01, 1e6, "number of cycles, then the last value; endless if absent");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at low before the triangle begins");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (high_mA <= low_mA) report("high", "must be above low");
     if (period_s.has_value() == speed_mA_per_s.has_value())
       report(period_s ? "speed" : "period", "give either period or speed, one of the two");
@@ -80,8 +76,7 @@ struct CurrentMove {
   double at_s = 0.0;
   double to_mA = 4.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("at", self.at_s, "s", 0.0, 1e6, "time of the step");
     visit.required("to", self.to_mA, "mA", 0.0, 100.0, "command from then on");
   }
@@ -99,15 +94,13 @@ struct StepCurrent {
   double at(double time_s) const;
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit("start", self.start_mA, "mA", 0.0, 100.0,
           "command before the first step; the valve's zero_command if absent");
     visit.required("moves", self.moves, "steps in order of time; an empty list holds the start");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     for (std::size_t i = 1; i < moves.size(); ++i)
       if (moves[i].at_s <= moves[i - 1].at_s) return report("moves", "times must ascend");
   }
@@ -124,16 +117,14 @@ struct StairCurrent {
   double at(double time_s) const;
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest command, the first level");
     visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest command");
     visit.required("steps", self.steps, 1, 10000, "number of steps from low to high");
     visit.required("dwell", self.dwell_s, "s", 1e-3, 1e6, "time at each level");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (high_mA <= low_mA) report("high", "must be above low");
   }
 };
@@ -149,8 +140,7 @@ struct ChirpCurrent {
   double at(double time_s) const;
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit.required("low", self.low_mA, "mA", 0.0, 100.0, "lowest command; the chirp begins midway");
     visit.required("high", self.high_mA, "mA", 0.0, 100.0, "highest command");
@@ -158,8 +148,7 @@ struct ChirpCurrent {
     visit.required("last_frequency", self.last_frequency_Hz, "Hz", 0.0, 1e3, "frequency at the end");
     visit.required("lasting", self.lasting_s, "s", 1e-3, 1e6, "length of the chirp, then the last value");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (high_mA <= low_mA) report("high", "must be above low");
   }
 };
@@ -176,15 +165,13 @@ struct RecordedCurrent {
   /// Throws std::invalid_argument if there are no samples.
   std::unique_ptr<Controller> make(const Knowledge& knowledge) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name in tables and file names");
     visit.required("file", self.file, "CSV table, one row each tick");
     visit("column", self.column,
           "heading of the column that holds the command; the rig's own, current_mA or command_V, if absent");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (file.empty()) report("file", "must name a file");
   }
 };

@@ -21,8 +21,7 @@ struct WeighingSettings {
   /// of its 4 to 20 mA, up to 8 mA at 6 mA/s (T 4.3).
   void follow(const CurrentRange& range);
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("contractions", self.contractions, 2, 1000, "how often the load is lifted (T 4.3: five times)");
     visit("speed", self.speed_mA_per_s, "mA/s", 1e-3, 1e5,
           "speed of the command; 3/8 of the valve's span in a second if absent");
@@ -31,8 +30,7 @@ struct WeighingSettings {
     visit("high", self.high_mA, "mA", 0.0, 100.0,
           "command at the top of each; a quarter of the valve's span up if absent");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (low_mA && high_mA && *high_mA <= *low_mA) report("high", "must be above low");
   }
 };

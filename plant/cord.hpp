@@ -39,15 +39,13 @@ struct CordOf {
 
   static constexpr double softest_N_per_m = 1e3;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("stiffness", self.stiffness_N_per_m, "N/m", 0.0, 1e8, "k_c; 0: it does not stretch");
     visit("damping", self.damping_N_s_per_m, "N.s/m", 0.0, 1e5, "c_c");
     visit("end_mass", self.end_mass_kg, "kg", 1e-3, 100.0,
           "what moves with the muscle's end: fitting, and a part of the muscle");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (!absent() && stiffness_N_per_m < softest_N_per_m)
       report("stiffness", "of a cord is at least 1000 N/m; 0: it does not stretch");
   }

@@ -67,8 +67,7 @@ class EffectSet {
     return std::get<E>(all);
   }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     std::apply([&](auto&... effect) { (visit(effect.name, effect, effect.sentence), ...); }, self.all);
     visit("hypotheses", self.laws, "laws of your own: files, or written here (docs/hypotheses.md)");
   }
@@ -333,8 +332,7 @@ class EffectSet {
   }
 
   // Calls f(effect, on, slot) for each effect that is switched on; `on`: for which of several rigs it is.
-  template <class F>
-  void each(const F& f) const {
+  void each(const auto& f) const {
     [&]<std::size_t... i>(std::index_sequence<i...>) {
       const auto call = [&]<std::size_t at>(std::integral_constant<std::size_t, at>) {
         const auto& effect = std::get<at>(all);
@@ -360,8 +358,7 @@ class EffectSet {
     return memory[slot < memories ? slot : 0];
   }
 
-  template <class F>
-  double at_tick(double value, const F& f) const {
+  double at_tick(double value, const auto& f) const {
     std::apply([&](const auto&... effect) { ((value = f(effect, value)), ...); }, all);
     return value;
   }

@@ -17,8 +17,7 @@ struct Noise {
   double ripple_Pa = 0.0, ripple_period_s = 7.0;
   double wander_Pa = 0.0, wander_time_s = 5.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("encoder_jitter", self.encoder_jitter, "1", 0.0, 0.1,
           "rms of the position before it is counted, as contraction ratio");
     visit("gauge", self.gauge_Pa, "Pa", 0.0, 1e5, "rms of the pressure gauge");

@@ -36,8 +36,7 @@ template <class P>
 struct ArmAtOf {
   P angle_rad = 0.0, arm_m = 0.03;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("angle", self.angle_rad, "rad", -180.0 * degree_rad, 180.0 * degree_rad, "joint angle");
     visit.required("arm", self.arm_m, "m", 1e-3, 5.0, "the cord's arm there");
   }
@@ -63,8 +62,7 @@ struct LeverOf {
   SpringOf<P> spring() const { return {spring_preload_N_m, spring_N_m_per_rad, spring_ways}; }
   bool by_points() const { return arms.empty(); }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("contraction", self.contraction_ratio, "1", 0.0, 0.5, "of the muscle at joint angle 0, e0");
     visit("base_distance", self.base_m, "m", 1e-3, 5.0, "pivot to the muscle's fixed end, a");
     visit("lever_distance", self.attached_m, "m", 1e-3, 5.0, "pivot to the point that the cord pulls, b");
@@ -84,8 +82,7 @@ struct LeverOf {
     visit("spring_preload", self.spring_preload_N_m, "N.m", -1e4, 1e4, "its torque at joint angle 0");
     visit("spring_ways", self.spring_ways, "one: it only pulls");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (inertia_kg_m2 < mass_kg * centre_m * centre_m)
       report("inertia", "about the pivot it is at least mass centre^2 (parallel axes)");
     for (std::size_t i = 1; i < arms.size(); ++i)

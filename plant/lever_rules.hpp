@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 
 #include <plant/rig.hpp>
 
@@ -39,8 +38,7 @@ inline Way way_of(const Rig& rig, const Turning& turning) {
   return way;
 }
 
-template <class Report>
-void lever_rules(const Rig& rig, Report& report) {
+void lever_rules(const Rig& rig, auto& report) {
   const Lever& lever = *rig.lever();
   const Turning turning(lever);
   const double most = Braid(rig.muscle).largest_contraction_ratio();

@@ -21,8 +21,7 @@ struct HangingLoad {
   static constexpr std::string_view kind = "hanging_load";
 
   bool absent() const { return true; }  ///< every rig has this unless it says otherwise
-  template <class Self, class Visitor>
-  static void fields(Self&, Visitor&) {}
+  static void fields(auto&, auto&) {}
 };
 
 /// A bench that holds or drives the muscle's end, and measures the cord's force.
@@ -30,8 +29,7 @@ struct HeldLength {
   static constexpr std::string_view kind = "held_length";
 
   bool absent() const { return false; }
-  template <class Self, class Visitor>
-  static void fields(Self&, Visitor&) {}
+  static void fields(auto&, auto&) {}
 };
 
 /// What two muscles turn (T 2.7): a link on the wheel's axis. Both cords run on the same wheel.
@@ -44,8 +42,7 @@ struct LinkOf {
   P hangs_at_rad = 0.0;            ///< theta at which it hangs straight down
   P damping_N_m_s_per_rad = 0.05;  ///< of the bearings
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("contraction_1", self.contraction_ratio, "1", 0.0, 0.5,
           "contraction ratio of muscle 1 as it is mounted, at joint angle 0, e10");
     visit("contraction_2", self.opposite_contraction_ratio, "1", 0.0, 0.5, "the same of muscle 2, e20");
@@ -58,8 +55,7 @@ struct LinkOf {
     visit("joint_damping", self.damping_N_m_s_per_rad, "N.m.s/rad", 0.0, 1e3,
           "viscous friction of the joint, c_j");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (inertia_kg_m2 < mass_kg * length_m * length_m)
       report("link_inertia", "about the axis it is at least link_mass link_length^2 (parallel axes)");
   }
@@ -74,8 +70,7 @@ struct OppositeSide {
   Hose hose;
   Effects effects;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("muscle", self.muscle, "braid and tube");
     visit("friction", self.friction, "thread friction");
     visit("valve", self.valve, "servo valve or regulator; both hang on one supply");
@@ -90,8 +85,7 @@ struct Pair : Link {
   OppositeSide opposite;
 
   bool absent() const { return false; }
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     Link::fields(self, visit);
     visit("opposite", self.opposite, "where the side of muscle 2 differs from that of muscle 1");
   }

@@ -54,8 +54,7 @@ struct MuscleOf {
   ContactSurface contact_surface = ContactSurface::squared;
   CordOf<P> cord;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("count", self.count, 1, 100, "equal muscles side by side on one cord, each with a hose");
     visit("rest_length", self.rest_length_m, "m", 0.01, 5.0, "length at rest, l0 (T 2.4)");
     visit("rest_radius", self.rest_radius_m, "m", 5e-4, 0.2, "radius at rest, r0 (T 2.5)");
@@ -72,8 +71,7 @@ struct MuscleOf {
     visit("contact_surface", self.contact_surface, "cos^2 (geometry) or cos (as the thesis prints 4.3)");
     visit("cord", self.cord, "between muscle and joint, where it stretches; of all muscles side by side");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (3.0 * std::cos(braid_angle_rad) * std::cos(braid_angle_rad) <= 1.0)
       report("braid_angle", "must be below 54.7 deg, where the braid no longer pulls");
     if (end_length_m > 0.5 * rest_length_m) report("end_length", "must not be above half of rest_length");
@@ -95,8 +93,7 @@ struct FrictionOf {
   P bristle_damping_N_s_per_m = 400.0;
   P floor_N = 1.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("law", self.law,
           "friction level: T 4.6 (superposition), T 1.1 (area), T 1.2 (logarithmic), T 1.3 (power)");
     visit("memory", self.memory,

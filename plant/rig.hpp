@@ -33,8 +33,7 @@ struct GasOf {
   P reference_density_kg_per_m3 = 1.185;
   P atmosphere_Pa = 101325.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("gas_constant", self.gas_constant_J_per_kg_K, "J/(kg.K)", 50.0, 5000.0, "specific gas constant R");
     visit("temperature", self.temperature_K, "K", 200.0, 400.0, "temperature of all gas, T");
     visit("reference_density", self.reference_density_kg_per_m3, "kg/m3", 0.05, 10.0,
@@ -64,8 +63,7 @@ struct JointOf {
   /// Ends that no joint gets to.
   static constexpr std::array nowhere_ratio{-1.0, 1.0}, nowhere_rad{-180.0 * degree_rad, 180.0 * degree_rad};
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("wheel_radius", self.wheel_radius_m, "m", 1e-3, 1.0, "radius of the joint's wheel, R_w");
     visit("wheel_inertia", self.wheel_inertia_kg_m2, "kg.m2", 0.0, 10.0, "its moment of inertia, J");
     visit("guide_damping", self.guide_damping_N_s_per_m, "N.s/m", 0.0, 1e5,
@@ -103,8 +101,7 @@ struct JointOf {
   bool has_contraction_stops() const {
     return any(lowest_ratio > nowhere_ratio[0]) || any(highest_ratio < nowhere_ratio[1]);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (lowest_ratio >= highest_ratio) report("highest_contraction", "must be above lowest_contraction");
     if (lowest_rad >= highest_rad) report("highest_angle", "must be above lowest_angle");
   }
@@ -116,16 +113,14 @@ struct Dac {
   double lowest_command = 0.0, largest_command = 20.0;
   int bits = 12;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("lowest_command", self.lowest_command, "mA", 0.0, 100.0,
           "bottom of its range, put out when all ends; in V or bar 0, or zero_command where that is below");
     visit("largest_command", self.largest_command, "mA", 0.1, 100.0,
           "top of its range; in V or bar the valve's span_command if left out");
     visit("bits", self.bits, 4, 24, "resolution: steps of the range / 2^bits");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (largest_command <= lowest_command) report("largest_command", "must be above lowest_command");
   }
 };
@@ -182,16 +177,14 @@ struct RigOf {
     return load_kg + joint.load_offset_kg >= 0.0 && (lever() != nullptr || moved_kg(load_kg) > 0.0);
   }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     parts(self, visit);
     visit("mechanics", self.mechanics,
           "what the muscle pulls on: hanging_load (if left out), lever (docs/lever.md), held_length or pair "
           "(docs/two_muscles.md)");
     visit("integrator", self.integrator, "how the equations are solved");
   }
-  template <class Self, class Visitor>
-  static void parts(Self& self, Visitor& visit) {
+  static void parts(auto& self, auto& visit) {
     visit("muscle", self.muscle, "braid and tube");
     visit("friction", self.friction, "thread friction");
     visit("valve", self.valve, "what fills the muscle and vents it, and supply");
@@ -215,8 +208,7 @@ struct RigOf {
   }
   bool remembers() const { return memories() != Memories::none; }
 
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     side_rules(report);
     if (holds_a_length() && joint.has_spring())
       report("joint", "spring and spring_preload act on a joint that moves, not on a muscle of held_length");
@@ -237,8 +229,7 @@ struct RigOf {
 
  private:
   /// Threads stick where the joint does, unless a bristle follows them; volumes must not fill in no time.
-  template <class Report>
-  void side_rules(Report& report) const {
+  void side_rules(auto& report) const {
     if (!muscle.cord.absent() && friction.memory == FrictionMemory::coulomb)
       report(
           "muscle",
@@ -269,8 +260,7 @@ struct RigOf {
   }
 
   /// What must be true between the sides of a pair.
-  template <class Report>
-  void pair_rules(Report& report) const {
+  void pair_rules(auto& report) const {
     const OppositeSide& two = pair()->opposite;
     if (valve.seals() || two.valve.seals())
       report("mechanics",
@@ -306,8 +296,7 @@ using Rig = RigOf<double>;
 
 /// A side (a rig, or the second muscle's) with a valve that is commanded otherwise: friction is as it was at
 /// the same speeds of the pressure. The caller sees to it that the span is above zero.
-template <class Side>
-void command_in(Side& side, CommandUnit unit, double zero, double span) {
+void command_in(auto& side, CommandUnit unit, double zero, double span) {
   const double ratio = (side.valve.span_command - side.valve.zero_command) / (span - zero);
   side.friction.f1_s2_per_mA2 *= ratio * ratio;
   side.valve.command_unit = unit;

@@ -112,8 +112,7 @@ struct Sensor {
   }
 
   /// Without signal and kind, which decide which fields there are.
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     const SensorSheet& sheet = self.sheet();
     const std::string_view unit = sheet.unit;
     if (self.counts_pulses()) {
@@ -138,8 +137,7 @@ struct Sensor {
           "how often it takes a reading, which it shows until the next; if left out, whenever it is read");
     visit("delay", self.delay_s, "s", 0.0, 10.0, "how old a reading is when it is shown; none if left out");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (counts_pulses()) return;
     if (sheet().needs_resolution && resolution == 0.0)
       report("resolution", "a sensor's resolution must be said; an analogue one has that of its converter");

@@ -22,8 +22,7 @@ struct Settings {
   Method method = Method::automatic;
   double tolerance = 1e-6;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("method", self.method, "erk (explicit, order 5), cvode (BDF, for stiff rigs) or auto");
     visit("tolerance", self.tolerance, "1", tightest_tolerance, 1e-3,
           "local error a step may make, relative to each state's working size");

@@ -22,8 +22,7 @@ struct BladderCreepOf {
 
   P stiffness_N_per_m = 0.0, time_s = 1.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("stiffness", self.stiffness_N_per_m, "N/m", 0.0, 1e4, "k_c; 0: absent");
     visit("time", self.time_s, "s", 0.02, 1000.0, "tau");
   }

@@ -41,8 +41,7 @@ struct BladderElasticityOf {
   BladderLaw variant = BladderLaw::linear;
   P stiffness_N_per_m = 0.0, force_N = 0.0, ratio = 0.05;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("variant", self.variant, "in proportion to the rise, up to a limit, or both");
     visit("stiffness", self.stiffness_N_per_m, "N/m", 0.0, 1e4, "k_b; 0: absent");
     visit("force", self.force_N, "N", 0.0, 1e3, "F_b; 0: absent");

@@ -29,8 +29,7 @@ struct BladderHysteresisOf {
   P force_N = 0.0, stroke_m = 0.008;
   int stops = 1;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("force", self.force_N, "N", 0.0, 1e3, "F_h, half of the loop's height; 0: absent");
     visit("stroke", self.stroke_m, "m", 2e-4, 1.0,
           "x_h, way over which it turns round; of several, their mean");

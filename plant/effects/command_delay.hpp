@@ -21,10 +21,7 @@ struct CommandDelayOf {
 
   P time_s = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("time", self.time_s, "s", 0.0, 1.0, "tau; 0: absent");
-  }
+  static void fields(auto& self, auto& visit) { visit("time", self.time_s, "s", 0.0, 1.0, "tau; 0: absent"); }
   auto absent() const { return time_s == 0.0; }
   P command_delay_s() const { return time_s; }
 };

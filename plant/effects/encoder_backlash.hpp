@@ -19,8 +19,7 @@ struct EncoderBacklashOf {
 
   P width_m = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("width", self.width_m, "m", 0.0, 0.02, "w, full width; 0: absent");
   }
   auto absent() const { return width_m == 0.0; }

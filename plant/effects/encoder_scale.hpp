@@ -17,10 +17,7 @@ struct EncoderScaleOf {
 
   P error = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("error", self.error, "1", -0.3, 0.3, "s; 0: absent");
-  }
+  static void fields(auto& self, auto& visit) { visit("error", self.error, "1", -0.3, 0.3, "s; 0: absent"); }
   auto absent() const { return error == 0.0; }
   P reading_factor() const { return 1.0 + error; }
 };

@@ -20,8 +20,7 @@ struct EndCapCorrectionOf {
 
   P slope = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("slope", self.slope, "1", -0.2, 0.2, "k_1, for each bar of gauge pressure; 0: absent");
   }
   auto absent() const { return slope == 0.0; }

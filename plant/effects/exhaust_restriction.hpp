@@ -21,8 +21,7 @@ struct ExhaustRestrictionOf {
 
   P share = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("share", self.share, "1", 0.0, 0.98, "s, lost of the conductance; 0: absent");
   }
   auto absent() const { return share == 0.0; }

@@ -23,8 +23,7 @@ struct FrictionWarmUpOf {
 
   P change = 0.0, time_s = 5.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("change", self.change, "1", -0.95, 5.0, "d, in the end; 0: absent");
     visit("time", self.time_s, "s", 0.1, 1e5, "tau");
   }

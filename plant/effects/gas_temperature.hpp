@@ -28,8 +28,7 @@ struct GasTemperatureOf {
 
   P time_s = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("time", self.time_s, "s", 0.0, 100.0, "tau; 0: absent, the gas has the walls' temperature");
   }
   auto absent() const { return time_s == 0.0; }

@@ -30,8 +30,7 @@ struct GaugeErrorOf {
   GaugeLaw variant = GaugeLaw::offset;
   P offset_Pa = 0.0, gain = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("variant", self.variant, "always by the same, or in proportion");
     visit("offset", self.offset_Pa, "Pa", -2e5, 2e5, "offset: P_0; 0: absent");
     visit("gain", self.gain, "1", -0.5, 1.0, "gain: g; 0: absent");

@@ -22,8 +22,7 @@ struct GuideFrictionOf {
 
   P coefficient = 0.0, slip_speed_m_per_s = 1e-3;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("coefficient", self.coefficient, "1", 0.0, 0.5, "mu; 0: absent");
     visit("slip_speed", self.slip_speed_m_per_s, "m/s", 1e-4, 0.1,
           "v_0: speed over which the jump at zero is smoothed");

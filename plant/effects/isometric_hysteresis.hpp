@@ -24,8 +24,7 @@ struct IsometricHysteresisOf {
 
   P pressure_Pa = 0.0, turn_Pa = 8e3;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("pressure", self.pressure_Pa, "Pa", 0.0, 2e5, "P_h; 0: absent");
     visit("turn", self.turn_Pa, "Pa", 100.0, 1e6, "P_z, change of pressure over which it turns round");
   }

@@ -18,8 +18,7 @@ struct MuscleLeakOf {
 
   P conductance_m3_per_s_Pa = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("conductance", self.conductance_m3_per_s_Pa, "m3/(s.Pa)", 0.0, 1e-8, "C_l; 0: absent");
   }
   auto absent() const { return conductance_m3_per_s_Pa == 0.0; }

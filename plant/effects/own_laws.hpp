@@ -24,8 +24,7 @@ struct OwnLawOf {
 
   auto absent() const { return values.front() == 0.0; }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     for (std::size_t i = 0; self.text && i < self.text->parameters.size(); ++i) {
       const LawText::Parameter& about = self.text->parameters[i];
       visit(about.name, self.values[i], about.unit, about.lowest, about.highest, "");
@@ -40,12 +39,10 @@ class OwnLawsOf {
 
   std::vector<OwnLawOf<P>> list{};
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     for (auto& law : self.list) visit(law.text->name, law, law.text->sentence);
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     std::size_t on = 0;
     for (const auto& law : list) on += law.absent() ? 0 : 1;
     if (on > most_laws) report("", "at most 4 laws can be at work in a rig");

@@ -21,8 +21,7 @@ struct PolytropicGasOf {
 
   P exponent = 1.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("exponent", self.exponent, "1", 1.0, 1.67, "n; 1: absent (isothermal)");
   }
   auto absent() const { return exponent == 1.0; }

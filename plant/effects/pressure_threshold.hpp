@@ -21,8 +21,7 @@ struct PressureThresholdOf {
 
   P pressure_Pa = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("pressure", self.pressure_Pa, "Pa", 0.0, 5e5, "P_t; 0: absent");
   }
   auto absent() const { return pressure_Pa == 0.0; }

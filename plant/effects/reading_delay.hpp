@@ -22,10 +22,7 @@ struct ReadingDelayOf {
 
   P time_s = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
-    visit("time", self.time_s, "s", 0.0, 1.0, "tau; 0: absent");
-  }
+  static void fields(auto& self, auto& visit) { visit("time", self.time_s, "s", 0.0, 1.0, "tau; 0: absent"); }
   auto absent() const { return time_s == 0.0; }
   P reading_delay_s() const { return time_s; }
 };

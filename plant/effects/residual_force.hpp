@@ -56,8 +56,7 @@ struct ForceTermOf {
   P coefficient_N = 0.0;
   P wavelength_m = 0.01, phase_rad = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("of", self.of, "v in 0.1 m/s, P in bar, F (of the braid) in 100 N, m g in 98.0665 N");
     visit.required("coefficient", self.coefficient_N, "N", -1e4, 1e4,
                    "force for one of it, positive upwards");
@@ -138,8 +137,7 @@ struct ResidualForceOf {
 
   std::vector<ForceTermOf<P>> terms{};
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("terms", self.terms, "the terms of the sum; none: absent");
   }
   bool absent() const { return terms.empty(); }

@@ -22,8 +22,7 @@ struct SpeedDependentFrictionOf {
 
   P ratio = 1.0, speed_m_per_s = 0.02;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("ratio", self.ratio, "1", 0.05, 5.0,
           "rho: friction at high speed over friction at rest; 1: absent");
     visit("speed", self.speed_m_per_s, "m/s", 5e-4, 1.0, "v_s: speed over which it changes");

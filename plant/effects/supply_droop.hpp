@@ -23,8 +23,7 @@ struct SupplyDroopOf {
 
   P volume_m3 = 5e-4, line_resistance_s_Pa_per_kg = 0.0, exponent = 1.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("volume", self.volume_m3, "m3", 1e-6, 1.0, "V_s");
     visit("line_resistance", self.line_resistance_s_Pa_per_kg, "s.Pa/kg", 0.0, 1e15, "1/g_s; 0: absent");
     visit("exponent", self.exponent, "1", 1.0, 1.4, "n: 1 isothermal, 1.4 adiabatic");

@@ -21,8 +21,7 @@ struct ValveDeadBandOf {
 
   P half_width_Pa = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("half_width", self.half_width_Pa, "Pa", 0.0, 2e5, "delta; 0: absent");
   }
   auto absent() const { return half_width_Pa == 0.0; }

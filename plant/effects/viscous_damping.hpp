@@ -19,8 +19,7 @@ struct ViscousDampingOf {
 
   P damping_N_s_per_m = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("damping", self.damping_N_s_per_m, "N.s/m", 0.0, 5e3, "c; 0: absent");
   }
   auto absent() const { return damping_N_s_per_m == 0.0; }

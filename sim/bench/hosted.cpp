@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -101,8 +100,7 @@ class Host {
   }
 
  private:
-  template <class Work>
-  void answer(const Work& work) {
+  void answer(const auto& work) {
     std::string text;
     try {
       text = work();

@@ -119,8 +119,7 @@ Json problem_json(const Problem& problem) {
   return entry;
 }
 
-template <class Schema>
-int print_kind(std::string_view schema, const char* title, const Schema& fields, const std::string& format) {
+int print_kind(std::string_view schema, const char* title, const auto& fields, const std::string& format) {
   if (format == "json")
     print(input::json_schema(schema, title, fields).dump(2) + "\n");
   else

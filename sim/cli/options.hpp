@@ -62,16 +62,14 @@ CLI::Validator from_to(double lowest, double highest);
 double positive_quantity(const std::string& text, const char* unit, double most);
 
 /// An option that is such a number.
-template <class T>
-void add_number(CLI::App& verb, const char* name, T& value, double lowest, double highest, const char* what,
-                const char* type = "N") {
+void add_number(CLI::App& verb, const char* name, auto& value, double lowest, double highest,
+                const char* what, const char* type = "N") {
   verb.add_option(name, value, what)->check(from_to(lowest, highest))->type_name(type);
 }
 
 /// An option that is such a quantity.
-template <class T>
-void add_quantity(CLI::App& verb, const char* name, T& value, const char* unit, double most, const char* what,
-                  const char* type) {
+void add_quantity(CLI::App& verb, const char* name, auto& value, const char* unit, double most,
+                  const char* what, const char* type) {
   const auto read = [&value, unit, most](const std::string& text) {
     value = positive_quantity(text, unit, most);
   };

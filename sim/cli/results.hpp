@@ -30,21 +30,18 @@ void say(const std::string& text);
 void warn(const std::vector<std::string>& warnings);
 
 /// Does `work(hook)` while what the hook hears is shown on stderr.
-template <class Work>
-auto with_progress(const std::string& title, const Work& work) {
+auto with_progress(const std::string& title, const auto& work) {
   output::Progress progress(title);
   return work(progress.hook());
 }
 
 /// Whether any of the runs, or of what else may fail on its own, did.
-template <class Runs>
-bool any_failed(const Runs& runs) {
+bool any_failed(const auto& runs) {
   return std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.failure.empty(); });
 }
 
 /// How many of the runs were begun before the user stopped.
-template <class Runs>
-std::size_t begun(const Runs& runs) {
+std::size_t begun(const auto& runs) {
   return static_cast<std::size_t>(
       std::count_if(runs.begin(), runs.end(), [](const auto& run) { return run.failure != run::not_begun; }));
 }

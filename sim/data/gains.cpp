@@ -17,8 +17,7 @@ using domain::ColumnPlace, domain::line_of;
 constexpr const ColumnThresholds& of_gains = thresholds.column;
 
 /// Of the squares of `by`, what is left of the readings beside the model with this scale and zero.
-template <class By>
-double share_left(const Compared& rows, double scale, double zero, const By& by) {
+double share_left(const Compared& rows, double scale, double zero, const auto& by) {
   double left = 0.0, all = 0.0;
   for (std::size_t k = 0; k < rows.model.size(); ++k) {
     left += std::pow((rows.measured[k] - zero) / scale - rows.model[k], 2);

@@ -16,9 +16,8 @@ struct Compared {
   std::vector<double> measured{}, model{};
 
   /// Without rows that `is_missing` names; nothing if the simulation ended early.
-  template <class IsMissing>
   void add(std::size_t run, const std::vector<double>& read, const std::vector<double>& simulated,
-           const IsMissing& is_missing) {
+           const auto& is_missing) {
     if (read.size() != simulated.size()) return;
     runs.push_back(run);
     for (std::size_t k = 0; k < read.size(); ++k) {

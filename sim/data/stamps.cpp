@@ -38,8 +38,7 @@ struct Wave {
 };
 
 /// Calls visit(first, last) for each window of stamps.
-template <class Visit>
-void each_window(const std::vector<double>& time_s, const Visit& visit) {
+void each_window(const std::vector<double>& time_s, const auto& visit) {
   for (std::size_t first = 0; first < time_s.size();) {
     const auto end = std::lower_bound(time_s.begin() + static_cast<std::ptrdiff_t>(first), time_s.end(),
                                       time_s[first] + window_s);

@@ -28,8 +28,7 @@ struct CampaignCurrent {
   std::optional<CampaignWaveform> current{};                 ///< of one muscle
   std::optional<CampaignWaveform> current_1{}, current_2{};  ///< of a pair
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name,
           "part of the names of its runs; if left out, that of the waveform, or c and its place in the list");
     visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
@@ -52,8 +51,7 @@ struct Campaign {
 
   std::vector<InputFile> inputs;  ///< the files it was read from
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name of the results' folder; the file's name if left out");
     visit("rig", self.rig, "a shipped name, the path of a rig file, or changes in place");
     visit("loads", self.loads_kg, "kg", 0.0, 500.0, "masses of the loads; required where they hang");

@@ -42,8 +42,7 @@ struct ColumnPlace {
 
   bool absent() const { return column.empty(); }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required(
         "column", self.column,
         "heading in a .csv, channel (or number) in an .lvm, variable, run.field or data(:,2) in a .mat, "
@@ -65,8 +64,7 @@ struct ColumnPlace {
           "a table with one reading a row: the rows that hold this one, as {sensor: laser}");
   }
 
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (factor == 0.0) report("factor", "it must not be 0");
     if (column.empty() && !unit.empty()) report("column", "it must not be empty");
   }
@@ -78,8 +76,7 @@ struct SettledPoints {
 
   bool absent() const { return each_s == 0.0; }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("each", self.each_s, "s", 0.1, 1e5,
                    "time that each point took: on the way there for half of it at most, read at its end");
   }
@@ -133,15 +130,13 @@ struct ColumnMap {
   /// What of a muscle's pressure it gives; 0: of one muscle.
   plant::GivenPressure given_pressure(std::size_t muscle) const;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     for (const Quantity& quantity : quantities()) visit(quantity.key, self[quantity], quantity.words);
     visit("rows_are_ticks", self.rows_are_ticks, "the file holds no time: its rows are one tick apart");
     visit("settled", self.settled, "the rows are settled points, in the order in which they were measured");
   }
 
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (rows_are_ticks && !(*this)["time"].absent())
       report("rows_are_ticks", "and yet a column of time is named");
     if (!settled.absent() && (rows_are_ticks || !(*this)["time"].absent()))

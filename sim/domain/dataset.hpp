@@ -109,8 +109,7 @@ struct Run {
     return std::nullopt;
   }
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("id", self.id, "name of the run; results are written under it");
     visit.required("file", self.file,
                    "its table, relative to this file: text (.csv, .txt or any other ending), .lvm, .mat, "
@@ -186,8 +185,7 @@ struct Dataset {
   std::filesystem::path path;     ///< of the file `dataset.yaml`
   std::vector<InputFile> inputs;  ///< the files it was read from
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("rig", self.rig, "the nominal rig: a shipped name, the path of a rig file, or changes in place");
     visit(
         "columns", self.columns,

@@ -9,8 +9,7 @@ namespace {
 
 const std::vector<double> nothing;
 
-template <class Columns>
-auto find(Columns& columns, std::string_view key, std::size_t muscle) {
+auto find(auto& columns, std::string_view key, std::size_t muscle) {
   return std::ranges::find_if(columns, [&](const auto& column) { return column.is(key, muscle); });
 }
 

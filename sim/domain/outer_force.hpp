@@ -8,8 +8,7 @@ namespace mckibben::domain {
 struct From {
   double at_s = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("at", self.at_s, "s", 0.0, 3600.0, "from the first tick not before it");
   }
 };
@@ -18,8 +17,7 @@ struct From {
 struct OuterForce : From {
   double force_N = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     From::fields(self, visit);
     visit.required("force", self.force_N, "N", -1e5, 1e5,
                    "positive lengthens the muscle, as a load does: 9.80665 N for a kilogram");
@@ -30,8 +28,7 @@ struct OuterForce : From {
 struct OuterTorque : From {
   double torque_N_m = 0.0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     From::fields(self, visit);
     visit.required("torque", self.torque_N_m, "N.m", -1e4, 1e4,
                    "positive where it turns as muscle 1 does that contracts");

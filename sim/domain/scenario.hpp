@@ -31,8 +31,7 @@ struct Criterion {
   std::optional<double> largest_error_below;
   std::optional<double> spread_below;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("controller", self.controller, "name of the controller it is for; all if left out");
     visit("rmse_below", self.rmse_below, "1", 0.0, 1.0, "root mean square error, as contraction ratio");
     visit("largest_error_below", self.largest_error_below, "1", 0.0, 1.0,
@@ -40,8 +39,7 @@ struct Criterion {
     visit("spread_below", self.spread_below, "1", 0.0, 1.0,
           "difference of the rmse between the worst and the best load, as contraction ratio");
   }
-  template <class Report>
-  void rules(Report& report) const {
+  void rules(auto& report) const {
     if (!rmse_below && !largest_error_below && !spread_below)
       report("rmse_below", "give this, largest_error_below or spread_below");
   }
@@ -49,8 +47,7 @@ struct Criterion {
 
 /// The same as it is written of a joint.
 struct JointCriterion : Criterion {
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     constexpr double turn_rad = 2.0 * std::numbers::pi;
     visit("controller", self.controller, "name of the controller it is for; all if left out");
     visit("rmse_below", self.rmse_below, "rad", 0.0, turn_rad, "root mean square error of the angle");
@@ -65,8 +62,7 @@ struct JointCriterion : Criterion {
 struct Robustness {
   int rigs = 0;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("rigs", self.rigs, 0, 100000,
           "how many rigs are drawn within the ± of the rig's file, each with its own noise");
   }
@@ -77,8 +73,7 @@ struct TwoCurrents {
   std::string name;
   CampaignWaveform current_1, current_2;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name of the run; if left out, c and its place in the list");
     visit.required("current_1", self.current_1, "current to the valve of muscle 1");
     visit.required("current_2", self.current_2, "current to the valve of muscle 2");
@@ -91,8 +86,7 @@ struct JointTarget {
   controllers::AngleTarget angle;
   std::optional<controllers::StiffnessTarget> stiffness;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("name", self.name, "part of the names of its runs; if left out, t and its place in the list");
     visit.required("angle", self.angle, "the movement that is wanted");
     visit("stiffness", self.stiffness,
@@ -105,8 +99,7 @@ struct Hand {
   double distance_m = 0.4;
   std::vector<double> loads_kg{0.0};
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit("distance", self.distance_m, "m", 0.0, 5.0,
           "from the axis to the load, in line with the link's mass");
     visit("loads", self.loads_kg, "kg", 0.0, 500.0, "masses in the hand; 0 kg is the link alone");
@@ -148,8 +141,7 @@ struct Scenario {
   std::vector<InputFile> inputs;               ///< the files it was read from
 
   /// The rig says which keys there are: it is visited first.
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     const bool pair = self.rig.pair() != nullptr;
     visit("name", self.name, "name of the results' folder; the file's name if left out");
     visit("rig", self.rig,
@@ -162,8 +154,7 @@ struct Scenario {
   }
 
  private:
-  template <class Self, class Visitor>
-  static void fields_of_one(Self& self, Visitor& visit) {
+  static void fields_of_one(auto& self, auto& visit) {
     visit.required("loads", self.loads_kg, "kg", 0.0, 500.0, "masses of the loads");
     const auto target = [&](auto& movement, std::string_view meaning) {
       if (self.rig.valve.seals())
@@ -218,22 +209,19 @@ struct Scenario {
     visit_criteria_of_joint(self, visit);
   }
 
-  template <class Self, class Visitor>
-  static void visit_torques(Self& self, Visitor& visit) {
+  static void visit_torques(auto& self, auto& visit) {
     visit("joint_torque", self.outer_torques,
           "of a lever or a pair: torques on the joint, one after the other; none before the first");
   }
 
-  template <class Self, class Visitor>
-  static void visit_criteria_of_joint(Self& self, Visitor& visit) {
+  static void visit_criteria_of_joint(auto& self, auto& visit) {
     visit_as<JointCriterion>(
         self.criteria, [](const Criterion& one) { return JointCriterion{one}; },
         [](const JointCriterion& one) -> Criterion { return one; },
         [&](auto& criteria) { visit("criteria", criteria, "what counts as good enough"); });
   }
 
-  template <class Self, class Visitor>
-  static void fields_of_time(Self& self, Visitor& visit) {
+  static void fields_of_time(auto& self, auto& visit) {
     visit.required("duration", self.duration_s, "s", 1e-4, 3600.0, "length of each run");
     visit(
         "skip", self.skip_s, "s", 0.0, 3600.0,
@@ -241,8 +229,7 @@ struct Scenario {
         "where the target begins; until the target first moves if absent");
   }
 
-  template <class Self, class Visitor>
-  static void fields_of_chance(Self& self, Visitor& visit) {
+  static void fields_of_chance(auto& self, auto& visit) {
     visit("noise", self.noise, "what disturbs the instruments");
     visit("seed", self.seed, 0, std::numeric_limits<std::uint64_t>::max(), "where chance begins");
   }

@@ -25,8 +25,7 @@ struct PlantVector
 };
 
 /// make(V*) for the vector V that a rig needs.
-template <class Make>
-auto with_vector(const plant::Plant& rig, bool keep_ledger, const Make& make) {
+auto with_vector(const plant::Plant& rig, bool keep_ledger, const auto& make) {
   using plant::Memories;
   const auto with = [&]<int sides, Memories memories, Books books> {
     return make(static_cast<PlantVector<sides, memories, books>*>(nullptr));

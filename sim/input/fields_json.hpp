@@ -48,8 +48,7 @@ template <class T>
 Json to_json(const T& value, const WriteContext& context = {});
 
 /// What a rig file says of muscle 1 holds for both: effects that muscle 2 has not are said to be absent.
-template <class R>
-void say_absent_effects(const R& rig, Json& file) {
+void say_absent_effects(const auto& rig, Json& file) {
   if (rig.pair() == nullptr) return;
   const auto say = [&]<class E>(const E&) {
     if (rig.effects.template get<E>().absent() || !rig.pair()->opposite.effects.template get<E>().absent())

@@ -19,8 +19,7 @@ struct WrittenParameter {
 
   static constexpr double largest = 1e30;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("unit", self.unit, "what it is measured in, as N.s/m; 1 for a ratio");
     visit.required("typical", self.typical, "1", -largest, largest,
                    "a value that matters, in that unit; a diagnosis begins there");
@@ -40,8 +39,7 @@ struct WrittenLaw {
   plant::LawPlace at{};
   std::string law;
 
-  template <class Self, class Visitor>
-  static void fields(Self& self, Visitor& visit) {
+  static void fields(auto& self, auto& visit) {
     visit.required("name", self.name, "small letters, digits and _, and no effect of the catalogue");
     visit.required("sentence", self.sentence, "what it is, as a verdict would say it");
     visit.required(

@@ -12,8 +12,7 @@ namespace mckibben::input {
 namespace {
 
 /// What columns tell by `sign`, if they agree; 0: nothing, or two signs.
-template <class Sign>
-char agreed(const std::vector<Spelling>& columns, const Sign& sign) {
+char agreed(const std::vector<Spelling>& columns, const auto& sign) {
   char told = '\0';
   for (const Spelling& each : columns) {
     const char own = (each.*sign)();

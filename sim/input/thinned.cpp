@@ -18,8 +18,7 @@ constexpr std::size_t least_bytes = 1U << 24U, most_kept_bytes = 1U << 26U, most
 constexpr std::size_t whole_lines = 3000, most_of_words = 10'000, block_bytes = 1U << 20U;
 
 /// Blocks of a file, until `use` returns false.
-template <class Use>
-void each_block(const std::filesystem::path& path, const Use& use) {
+void each_block(const std::filesystem::path& path, const auto& use) {
   std::ifstream stream(path, std::ios::binary);
   std::vector<char> block(block_bytes);
   while (stream) {

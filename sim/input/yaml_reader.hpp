@@ -60,8 +60,7 @@ void read_sensors(const Source& source, const Node& node, plant::Sensors& into, 
 bool begin_file(const YamlFile& file, std::string_view schema, Problems& problems);
 
 /// Reads another file, which is named at `node`; what is wrong with it is a problem of this one.
-template <class Read>
-void read_other(const Source& source, const Node& node, Problems& problems, const Read& read) {
+void read_other(const Source& source, const Node& node, Problems& problems, const auto& read) {
   try {
     read();
   } catch (const MissingInput& missing) {

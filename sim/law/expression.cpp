@@ -101,10 +101,7 @@ struct Action : pegtl::nothing<Rule> {};
 
 template <Kind kind>
 struct Operator {
-  template <class Input>
-  static void apply(const Input& in, Left& left) {
-    left.pieces.push_back({kind, in.position().byte});
-  }
+  static void apply(const auto& in, Left& left) { left.pieces.push_back({kind, in.position().byte}); }
 };
 template <>
 struct Action<grammar::negated> : Operator<Kind::negate> {};
@@ -131,22 +128,17 @@ struct Action<grammar::at_least> : Operator<Kind::greater_equal> {};
 
 template <>
 struct Action<grammar::number> {
-  template <class Input>
-  static void apply(const Input& in, Left& left) {
+  static void apply(const auto& in, Left& left) {
     left.pieces.push_back({Kind::number, in.position().byte, in.string()});
   }
 };
 template <>
 struct Action<grammar::unit> {
-  template <class Input>
-  static void apply(const Input& in, Left& left) {
-    left.pieces.back().unit = in.string();
-  }
+  static void apply(const auto& in, Left& left) { left.pieces.back().unit = in.string(); }
 };
 template <>
 struct Action<grammar::name> {
-  template <class Input>
-  static void apply(const Input& in, Left& left) {
+  static void apply(const auto& in, Left& left) {
     left.pieces.push_back({Kind::name, in.position().byte, in.string()});
   }
 };
@@ -163,8 +155,7 @@ struct Action<grammar::argument> {
 };
 template <>
 struct Action<grammar::end_call> {
-  template <class Input>
-  static void apply(const Input& in, Left& left) {
+  static void apply(const auto& in, Left& left) {
     const Left::Call& call = left.open.back();
     left.pieces.push_back({Kind::call, call.offset, call.name, {}, call.arguments, in.position().byte + 1});
     left.open.pop_back();
@@ -172,8 +163,7 @@ struct Action<grammar::end_call> {
 };
 template <>
 struct Action<grammar::group> {
-  template <class Input>
-  static void apply(const Input& in, Left& left) {
+  static void apply(const auto& in, Left& left) {
     const std::size_t begin = in.position().byte;
     left.pieces.push_back({Kind::group, begin, {}, {}, 0, begin + in.size()});
   }

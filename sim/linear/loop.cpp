@@ -1,5 +1,4 @@
 // Crossings are looked for on a grid and then halved; see the header.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,8 +11,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Where a function of frequency changes its sign between two frequencies.
-template <class Function>
-double crossing(const Function& f, double low, double high) {
+double crossing(const auto& f, double low, double high) {
   const bool above = f(low) > 0.0;
   for (int i = 0; i < 50; ++i) {
     const double middle = std::sqrt(low * high);

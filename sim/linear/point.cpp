@@ -197,8 +197,7 @@ void name_ends(Linear& linear, bool angle, double angle_per_ratio) {
 
 /// The command that brings `what` of the settled rig to a value, between the ends of what the valve answers
 /// to.
-template <class What>
-double command_for(const plant::Rig& rig, double load_kg, double value, const char* named, const What& what) {
+double command_for(const plant::Rig& rig, double load_kg, double value, const char* named, const auto& what) {
   const auto range = controllers::working_range(run::knowledge_of(rig, {}));
   const auto reached = [&](double current_mA) {
     return what(Settled(rig, load_kg, commands_of(rig, current_mA)));

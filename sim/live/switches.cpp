@@ -18,8 +18,7 @@ constexpr double shape_reach = 3.0;         // beyond the shapes that a diagnosi
 using diagnose::Side;
 
 /// Does something with the effect of that name.
-template <class Work>
-void with_effect_named(plant::Effects& effects, std::string_view name, const Work& work) {
+void with_effect_named(plant::Effects& effects, std::string_view name, const auto& work) {
   const auto look_at = [&]<class E>(E& effect) {
     if (name == E::name) work(effect);
   };

@@ -34,8 +34,7 @@ void publish(const std::filesystem::path& container, const std::vector<Move>& mo
              const Say& say);
 
 /// Does something with `path`; what the file system objects to becomes CannotWrite.
-template <class Work>
-auto writing(const std::filesystem::path& path, const Work& work) {
+auto writing(const std::filesystem::path& path, const auto& work) {
   try {
     return work();
   } catch (const std::filesystem::filesystem_error& error) {

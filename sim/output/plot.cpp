@@ -39,9 +39,8 @@ std::string polyline(const char* colour, const char* dash, double stroke_width, 
 }
 
 /// A line through one value each tick; at most a point for each pixel, the extreme ones of each.
-template <class Value>
 std::string line(const Panel& panel, std::size_t ticks, double tick_s, const char* colour, const char* dash,
-                 double stroke_width, const Value& value) {
+                 double stroke_width, const auto& value) {
   const auto per_pixel = std::max<std::size_t>(1, ticks / static_cast<std::size_t>(plot_width));
   std::string points;
   for (std::size_t k = 0; k < ticks; k += per_pixel) {

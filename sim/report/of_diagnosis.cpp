@@ -55,8 +55,7 @@ std::vector<const RunGap*> ordered(const std::vector<RunGap>& all, bool changed)
 }
 
 /// The one with this id; null if there is none.
-template <class Runs>
-auto by_id(const Runs& runs, const std::string& id) {
+auto by_id(const auto& runs, const std::string& id) {
   const auto at = std::find_if(runs.begin(), runs.end(), [&](const auto& run) { return run.id == id; });
   return at == runs.end() ? nullptr : &*at;
 }

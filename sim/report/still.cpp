@@ -21,8 +21,7 @@ std::string attribute(char name, const output::Scale& scale) {
 }
 
 /// An axis drawn in a unit; in mm and as ratios where that is what it shows.
-template <class Drawn>
-std::string in_units(const std::string& label, const plant::Rig& rig, const Drawn& drawn) {
+std::string in_units(const std::string& label, const plant::Rig& rig, const auto& drawn) {
   if (label != ratio_unit) return drawn(1.0, label);
   return either(drawn(length_mm(rig), "contraction in mm"), drawn(1.0, label), "g");
 }

@@ -24,10 +24,7 @@ class PastCommands {
   /// When something else will be felt; infinite if all that was given is felt.
   double next_s(double now_s, double late_s) const;
 
-  template <class Self, class Visitor>
-  static void members(Self& self, Visitor& visit) {
-    visit(self.given_);
-  }
+  static void members(auto& self, auto& visit) { visit(self.given_); }
 
  private:
   std::vector<Given> given_;
@@ -41,10 +38,7 @@ class PastValues {
   void note(double at_s, double value, double slope_per_s, double oldest_s);
   double at(double at_s) const;
 
-  template <class Self, class Visitor>
-  static void members(Self& self, Visitor& visit) {
-    visit(self.seen_);
-  }
+  static void members(auto& self, auto& visit) { visit(self.seen_); }
 
  private:
   struct Seen {

@@ -42,8 +42,7 @@ struct Command {
     return valve_pressure_Pa ? plant::GivenPressure::valve : plant::GivenPressure::none;
   }
 
-  template <class Self, class Visitor>
-  static void members(Self& self, Visitor& visit) {
+  static void members(auto& self, auto& visit) {
     visit(self.current_mA, self.stray_current_mA, self.stray_pressure_Pa, self.muscle_pressure_Pa,
           self.valve_pressure_Pa);
   }
@@ -57,8 +56,7 @@ struct Drive : Command {
   double joint_force_N = 0.0;                  ///< held until then; positive lengthens the (first) muscle
   std::optional<double> supply_pressure_Pa{};  ///< held until then; none: the rig's
 
-  template <class Self, class Visitor>
-  static void members(Self& self, Visitor& visit) {
+  static void members(auto& self, auto& visit) {
     Command::members(self, visit);
     visit(self.contraction_ratio, self.opposite, self.joint_force_N, self.supply_pressure_Pa);
   }
@@ -94,8 +92,7 @@ class Rider {
     bool reads = true;               ///< a law of the user's own may make no number of a reading
 
     /// All of the above in turn, for whoever writes a state down.
-    template <class Self, class Visitor>
-    static void members(Self& self, Visitor& visit) {
+    static void members(auto& self, auto& visit) {
       visit(self.flow, self.held, self.plays, self.opposite_plays, self.reading, self.time_s, self.until_s,
             self.drive, self.commands, self.opposite_commands, self.switches, self.opposite_switches,
             self.rises, self.late, self.reads);

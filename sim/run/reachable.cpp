@@ -21,8 +21,7 @@ constexpr double far_too_fast_per_s = 100.0;
 
 // Where an ascending function passes through zero: regula falsi (Illinois).
 // The end nearer to zero if it does not.
-template <class Function>
-double root(const Function& f, double low, double high) {
+double root(const auto& f, double low, double high) {
   double at_low = f(low), at_high = f(high);
   if (at_low >= 0.0) return low;
   if (at_high <= 0.0) return high;

@@ -26,8 +26,7 @@ struct Span {
 };
 
 /// Of one row or more.
-template <class Value>
-Span span_of(const std::vector<Sample>& rows, const Value& value) {
+Span span_of(const std::vector<Sample>& rows, const auto& value) {
   const auto [low, high] = std::minmax_element(
       rows.begin(), rows.end(), [&](const auto& a, const auto& b) { return value(a) < value(b); });
   return {value(*low), value(*high)};

@@ -168,8 +168,7 @@ class Run : public ride::BatchItem {
       counts_ = counter_.count(rider_.now.reading.wheel_m + jitter_m);
   }
 
-  template <class Answer>
-  void ask_timed(Answer answer) {
+  void ask_timed(auto answer) {
     const auto begin = std::chrono::steady_clock::now();
     ask(answer());
     recording_.controller_s +=

@@ -27,9 +27,8 @@ VectorXd superposed(const FrictionFit& fit, const VectorXd& e, double nu) {
 }
 
 /// Data as dots, the model as a line through the same contraction ratios.
-template <class Model>
 Figure against_ratio(std::string number, const std::string& name, const FrictionAtSpeed& at,
-                     const Model& model) {
+                     const auto& model) {
   const Samples shown = thinned(at.samples);
   Figure figure{std::move(number), fmt::format("{}, contraction, {:.1f} mA/s", name, at.speed_mA_per_s),
                 "contraction ratio", "coefficient of friction"};

@@ -20,8 +20,7 @@ struct Instance {
   Slave slave;
 
   /// Does it; false if it could not, and the log says why.
-  template <class Work>
-  bool done(const Work& work) {
+  bool done(const auto& work) {
     try {
       work();
       return true;

@@ -55,16 +55,12 @@ class Walk {
     inside();
     path_.resize(before);
   }
-  template <class T>
-  void member(std::string_view key, T& value) {
+  void member(std::string_view key, auto& value) {
     double number = number_of(value);
     leaf_(path_ + std::string(key), number);
     set(value, number);
   }
-  template <class T>
-  static double number_of(const T& value) {
-    return static_cast<double>(value);
-  }
+  static double number_of(const auto& value) { return static_cast<double>(value); }
   static double number_of(const std::optional<double>& value) {
     return value.value_or(std::numeric_limits<double>::quiet_NaN());
   }
@@ -147,8 +143,7 @@ void become(plant::Mechanics& mechanics, std::size_t kind) {
     mechanics = plant::Lever{};
 }
 
-template <class Leaf>
-void walk(plant::Rig& rig, Leaf leaf) {
+void walk(plant::Rig& rig, auto leaf) {
   Walk visitor(leaf);
   visitor("command_unit", rig.valve.command_unit);
   LawWalk(leaf, "law")(rig.effects.laws);
