@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <string_view>
 #include <utility>
 
 #include <fcntl.h>

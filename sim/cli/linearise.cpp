@@ -1,5 +1,4 @@
 // The verb `linearise`: the rig at rest at a place as a linear system, and the margins of its loops.
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -9,7 +9,6 @@
 #include <sim/data/amount.hpp>
 #include <sim/data/columns.hpp>
 #include <sim/data/examine.hpp>
-#include <sim/data/judged.hpp>
 #include <sim/data/odd_readings.hpp>
 #include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>

@@ -1,6 +1,5 @@
 // Averages over neighbours, run by run; see the header.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 #include <utility>

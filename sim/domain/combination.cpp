@@ -1,6 +1,4 @@
 // The rules; see the header.
-#include <algorithm>
-#include <array>
 #include <string_view>
 
 #include <sim/domain/combination.hpp>

@@ -1,5 +1,4 @@
 // The field lists of the plant, walked with the path as a guide; see the header.
-#include <array>
 #include <concepts>
 #include <utility>
 

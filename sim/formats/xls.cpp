@@ -1,6 +1,4 @@
 // Excel 97 to 2003 by libfreexl, which reads files by their path, in a process of its own; see sheet.hpp.
-#include <array>
-#include <charconv>
 #include <memory>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 // A zip archive of XML: workbook, shared texts, styles (which tell dates), sheets; see sheet.hpp.
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>

@@ -1,6 +1,4 @@
 // Units of a column map; see the header.
-#include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 // Reading of data sets; see the header.
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <map>
 #include <set>
 #include <unordered_map>

@@ -1,7 +1,6 @@
 // Reading of scenarios, and the rules that need more than one field; see the header.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>

@@ -7,8 +7,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
-#include <string>
 
 #include <controllers/controller.hpp>
 #include <plant/rig.hpp>

@@ -1,6 +1,5 @@
 // Layout of diagnosis.json. Its first keys are relied on from outside (schema mckibben-diagnosis/1).
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include <sim/diagnose/priors.hpp>

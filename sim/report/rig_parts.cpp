@@ -1,6 +1,5 @@
 // Lines, and where the marks go; see the header.
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>

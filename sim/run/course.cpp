@@ -1,6 +1,5 @@
 // Stamps to drives; see the header.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>

@@ -1,7 +1,6 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <span>
 

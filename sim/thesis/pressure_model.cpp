@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include <sim/thesis/least_squares.hpp>
 #include <sim/thesis/pressure_model.hpp>
 

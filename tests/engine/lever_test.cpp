@@ -1,8 +1,6 @@
 // Levers with a known answer, for both methods: pendulums of any amplitude, moments that balance, stops that
 // hold, and what a run must conserve.
 #include <cmath>
-#include <numbers>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
