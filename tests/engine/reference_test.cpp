@@ -1,38 +1,15 @@
 // Agreement with trajectories of an independent program: fixed steps of 20 us, fourth order, same equations.
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "rig_on_bench.hpp"
+#include "table_of.hpp"
 
 namespace mckibben::engine {
 namespace {
-
-struct Row {
-  double current_mA, e, valve_bar, muscle_bar;
-};
-
-std::vector<Row> read_reference(const std::string& name) {
-  std::ifstream file(std::string(MCKIBBEN_TEST_DATA "/reference/") + name + ".csv");
-  std::string line;
-  std::getline(file, line);
-  EXPECT_EQ(line.rfind("time_s,current_mA,contraction_ratio,contraction_speed_per_s,valve_pressure_bar", 0),
-            0u);
-  std::vector<Row> rows;
-  while (std::getline(file, line)) {
-    std::array<double, 6> cells{};
-    const char* at = line.data();
-    for (auto& cell : cells) at = std::from_chars(at, line.data() + line.size(), cell).ptr + 1;
-    rows.push_back({cells[1], cells[2], cells[4], cells[5]});
-  }
-  return rows;
-}
 
 struct Case {
   const char* name;
@@ -46,19 +23,21 @@ class Reference : public testing::TestWithParam<std::tuple<Case, Method>> {
   };
   Errors errors_at(double tolerance) {
     const auto [c, method] = GetParam();
-    const auto rows = read_reference(c.name);
-    EXPECT_GT(rows.size(), 500u);
+    const Table rows = table_of(std::string(MCKIBBEN_TEST_DATA "/reference/") + c.name + ".csv");
+    const auto& current_mA = rows.at("current_mA");
+    EXPECT_GT(current_mA.size(), 500u);
     RigOnBench bench(plant::Rig{}, c.load_kg, {method, tolerance});
-    bench.start(rows.front().current_mA);
+    bench.start(current_mA.front());
     bench.tick = -167;  // settling
-    bench.hold(rows.front().current_mA, 167);
+    bench.hold(current_mA.front(), 167);
     Errors worst;
-    for (const auto& row : rows) {
+    for (std::size_t k = 0; k < current_mA.size(); ++k) {
       const auto& state = bench.flow.state;
-      worst.e = std::max(worst.e, std::abs(state.joint.contraction_ratio - row.e));
-      worst.bar = std::max({worst.bar, std::abs(state.side.valve_pressure_Pa / 1e5 - row.valve_bar),
-                            std::abs(state.side.muscle_pressure_Pa / 1e5 - row.muscle_bar)});
-      bench.hold(row.current_mA);
+      const auto off = [&](const char* column, double value) { return std::abs(value - rows.at(column)[k]); };
+      worst.e = std::max(worst.e, off("contraction_ratio", state.joint.contraction_ratio));
+      worst.bar = std::max({worst.bar, off("valve_pressure_bar", state.side.valve_pressure_Pa / 1e5),
+                            off("muscle_pressure_bar", state.side.muscle_pressure_Pa / 1e5)});
+      bench.hold(current_mA[k]);
     }
     return worst;
   }

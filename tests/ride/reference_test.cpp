@@ -1,16 +1,14 @@
 // Other drives and two muscles against an independent program: fixed steps of 20 us, fourth order, same
 // equations. A muscle at given pressure, with a load or at a given length; two muscles on one wheel.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <map>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <sim/ride/ride.hpp>
+
+#include "table_of.hpp"
 
 namespace mckibben::ride {
 namespace {
@@ -20,27 +18,9 @@ using solver::Method;
 constexpr double stamp_s = 0.012, bar = plant::Pa_per_bar;
 constexpr int settling = 167;  // ticks, 2.004 s
 
-using Columns = std::map<std::string, std::vector<double>>;
-
-Columns read_reference(const std::string& name) {
-  std::ifstream file(MCKIBBEN_TEST_DATA "/reference/" + name + ".csv");
-  std::string line;
-  std::getline(file, line);
-  std::vector<std::string> headings;
-  for (std::size_t at = 0; at <= line.size(); at = line.find(',', at) + 1) {
-    headings.push_back(line.substr(at, line.find(',', at) - at));
-    if (line.find(',', at) == std::string::npos) break;
-  }
-  Columns columns;
-  while (std::getline(file, line)) {
-    const char* at = line.data();
-    for (const auto& column : headings) {
-      double value = 0.0;
-      at = std::from_chars(at, line.data() + line.size(), value).ptr + 1;
-      columns[column].push_back(value);
-    }
-  }
-  EXPECT_GE(columns["time_s"].size(), 750u);
+Table read_reference(const std::string& name) {
+  const Table columns = table_of(MCKIBBEN_TEST_DATA "/reference/" + name + ".csv");
+  EXPECT_GE(columns.at("time_s").size(), 750u);
   return columns;
 }
 
@@ -59,7 +39,7 @@ class Driven : public testing::TestWithParam<Method> {
   solver::Settings tight() const { return {GetParam(), solver::tightest_tolerance}; }
 
   static Errors at_given_pressure(const char* name, double load_kg, const solver::Settings& settings) {
-    const Columns reference = read_reference(name);
+    const Table reference = read_reference(name);
     const auto& given = reference.at("muscle_pressure_bar");
     Ride ride(Loaded{plant::Rig{}, load_kg}, settings);
     Drive drive;
@@ -79,7 +59,7 @@ class Driven : public testing::TestWithParam<Method> {
   }
 
   static Errors at_given_length(const char* name, const solver::Settings& settings) {
-    const Columns reference = read_reference(name);
+    const Table reference = read_reference(name);
     const auto& pressure = reference.at("muscle_pressure_bar");
     const auto& length = reference.at("contraction_ratio");
     Ride ride(Loaded{plant::Rig{}, 0.0}, settings);
@@ -100,7 +80,7 @@ class Driven : public testing::TestWithParam<Method> {
   }
 
   static Errors of_pair(const char* name, const solver::Settings& settings) {
-    const Columns reference = read_reference(name);
+    const Table reference = read_reference(name);
     const auto& one = reference.at("current_1_mA");
     const auto& two = reference.at("current_2_mA");
     Ride ride(Loaded{plant::thesis_pair()}, settings);

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "program.hpp"
-
-namespace mckibben::cli {
+namespace mckibben {
 
 using Table = std::map<std::string, std::vector<double>>;
 
@@ -21,16 +20,16 @@ inline std::vector<std::string> cells_of(const std::string& line) {
 }
 
 inline Table table_of(const std::filesystem::path& path) {
-  std::istringstream stream(read_text(path));
+  std::ifstream file(path);
   std::string line;
-  std::getline(stream, line);
+  std::getline(file, line);
   const std::vector<std::string> head = cells_of(line);
   Table table;
-  while (std::getline(stream, line)) {
+  while (std::getline(file, line)) {
     const auto cells = cells_of(line);
     for (std::size_t i = 0; i < head.size(); ++i) table[head[i]].push_back(std::stod(cells.at(i)));
   }
   return table;
 }
 
-}  // namespace mckibben::cli
+}  // namespace mckibben
