@@ -73,12 +73,14 @@ Command command_of(const std::string& what, Keys& keys) {
   if (what == "load") return SetLoad{keys.number("kg")};
   if (what == "effect")
     return SetEffect{keys.text("name"), keys.yes("on"), keys.number("size"), keys.number("shape")};
+  if (what == "hide") return HideEffect{keys.text("name"), keys.number("size"), keys.number("shape")};
+  if (what == "show") return ShowEffect{};
   if (what == "again") return StartOver{};
   if (what == "run") return SetRunning{keys.yes("on")};
   if (what == "record") return Record{keys.yes("from_rest")};
   if (what == "stop") return StopRecording{};
-  refuse(
-      fmt::format("do = {}: must be command, sweep, load, effect, again, run, record or stop", shown(what)));
+  refuse(fmt::format("do = {}: must be command, sweep, load, effect, hide, show, again, run, record or stop",
+                     shown(what)));
 }
 
 }  // namespace

@@ -23,6 +23,11 @@ struct SetEffect {
   bool on;
   double size, shape;  ///< SI
 };
+struct HideEffect {  ///< of all effects only this one acts, unseen
+  std::string name;
+  double size, shape;  ///< SI
+};
+struct ShowEffect {};
 struct StartOver {};
 struct SetRunning {
   bool on;  ///< false: time stands still
@@ -32,8 +37,8 @@ struct Record {
 };
 struct StopRecording {};
 
-using Command =
-    std::variant<SetCommand, Sweep, SetLoad, SetEffect, StartOver, SetRunning, Record, StopRecording>;
+using Command = std::variant<SetCommand, Sweep, SetLoad, SetEffect, HideEffect, ShowEffect, StartOver,
+                             SetRunning, Record, StopRecording>;
 
 /// Throws std::invalid_argument, whose text says what is wrong.
 Command read_command(std::string_view text);

@@ -154,6 +154,13 @@ std::string Host::obey(const Command& command) {
           [&](const SetEffect& to) {
             return done(session_.set_effect(to.name, to.on, to.size, to.shape), "effects were switched");
           },
+          [&](const HideEffect& it) {
+            return done(session_.hide_effect(it.name, it.size, it.shape), "effects were switched");
+          },
+          [&](const ShowEffect&) {
+            session_.show_effect();
+            return done("");
+          },
           [&](const StartOver&) {
             session_.start_over();
             return done("", "it began again");
@@ -196,7 +203,8 @@ std::string Host::state_json() const {
              {"recording", recording_.has_value()},
              {"message", {{"number", messages_}, {"text", message_}}},
              {"failure", session_.failure()},
-             {"effects", Json::array()}};
+             {"effects", Json::array()},
+             {"hidden", session_.switches().hidden()}};
   if (!session_.pair()) state["load_kg"] = session_.load_kg();
   for (const Switch& one : session_.switches().all()) state["effects"].push_back(effect_json(one));
   return state.dump(-1, ' ', true, Json::error_handler_t::replace);

@@ -82,9 +82,10 @@ byId('forget').addEventListener('click', () => {
 for (const choice of document.querySelectorAll('.unit-choice input'))
   choice.addEventListener('change', makePlots);
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', makePlots);
-new ResizeObserver(() => {
-  for (const plot of [...timed, ...loops]) plot.resize();
-}).observe(byId('plots'));
+new ResizeObserver(() => requestAnimationFrame(() => {
+                     for (const plot of [...timed, ...loops]) plot.resize();
+                   }))
+    .observe(document.querySelector('.shown'));  // #plots and #loops have no boxes of their own
 const news = new EventSource('news');
 news.addEventListener('message', (event) => hear(JSON.parse(event.data)));
 news.addEventListener('error', () => say('The program has ended, or cannot be reached.', true));

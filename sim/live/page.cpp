@@ -32,7 +32,10 @@ std::string data_of(const plant::Rig& rig, const Session& session) {
             {"dac", {{"lowest", rig.dac.lowest_command}, {"largest", rig.dac.largest_command}}},
             {"signals", signals_json(rig)},
             {"switches", Json::array()}};
-  if (!session.pair()) data["load_kg"] = session.load_kg();
+  if (!session.pair()) {
+    data["load_kg"] = session.load_kg();
+    data["loads"] = {{"least_kg", session.loads().least_kg}, {"most_kg", session.loads().most_kg}};
+  }
   for (const Switch& one : session.switches().all()) data["switches"].push_back(switch_json(one));
   return report::in_script(data);
 }
@@ -54,12 +57,12 @@ constexpr const char* sweeps = R"html(<div class='line' role='group' aria-label=
 <button type='button' data-sweep='stairs' aria-pressed='false'>stairs</button></div>
 <div class='line'>from <input id='low' type='number' step='0.5' aria-label='Lowest current of sweeps in mA'>
 to <input id='high' type='number' step='0.5' aria-label='Highest current of sweeps in mA'> mA
-in <input id='period' type='number' step='1' min='0.1' max='1000' value='10' aria-label='Period of sweeps in s'> s</div>
+in <input id='period' type='number' step='1' min='0.1' max='1000' aria-label='Period of sweeps in s'> s</div>
 )html";
 
 constexpr const char* load = R"html(<fieldset><legend>Load</legend>
 <div class='line'><input id='load' type='range' step='any' aria-label='Load in kg'>
-<input id='load-number' type='number' step='0.1' min='0.01' max='500' aria-label='Load in kg, as a number'> kg</div>
+<input id='load-number' type='number' step='0.1' aria-label='Load in kg, as a number'> kg</div>
 </fieldset>
 )html";
 

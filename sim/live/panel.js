@@ -4,25 +4,30 @@ const live = {
   state: null,
   began: 0,     // simulated time since when the rig is as it is: earlier points are of another one
   recorded: 0,  // when the recording began
+  sweep: null,  // the last one
+  wrong: null,  // the control whose value was refused
 };
 
-/** Commands on their way: of each kind the last one that was asked for. */
+/** Commands on their way: of each kind the last one that was asked for, and the control that asks. */
 const asked = new Map();
 let sending = false;
-function ask(kind, command) {
-  asked.set(kind, command);
+function ask(kind, command, control) {
+  asked.set(kind, {command, control});
   if (!sending) send();
 }
 async function send() {
   sending = true;
   while (asked.size > 0) {
-    const [kind, command] = asked.entries().next().value;
+    const [kind, {command, control}] = asked.entries().next().value;
     asked.delete(kind);
     try {
       const answer = await fetch(
           'do',
           {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(command)});
-      say((await answer.json()).refused, true);
+      const {refused} = await answer.json();
+      if (byId('message').classList.contains('refused')) say('');
+      refusal.textContent = refused;
+      if (refused !== '') refuse(control);
     } catch {
       say('The program does not answer.', true);
     }
@@ -30,42 +35,56 @@ async function send() {
   sending = false;
 }
 
+/** Why something is not done, below the control that asked for it, which has the rig's value again. */
+const refusal = make('p', {class: 'refused small', role: 'alert'});
+function refuse(control) {
+  const row = control.closest('.line, .switch, .warning');
+  if (row.nextSibling !== refusal) row.after(refusal);
+  putBack(control);
+}
+function putBack(control) {
+  live.wrong = control;
+  showControls(live.state);
+  showSweep(live.sweep);
+  const now = samples.at(samples.newest());
+  showCurrents(live.state.sweep ? currentColumns.map((name) => now[name]) : live.state.wanted);
+  live.wrong = null;
+}
+
 /** In the line that is read out. */
 function say(text, refused = false) {
-  if (refused && text === '') {
-    if (byId('message').classList.contains('refused')) say('');
-    return;
-  }
   byId('message').textContent = text;
   byId('message').classList.toggle('refused', refused);
 }
 
-const inUse = (element) => element === document.activeElement;
+const inUse = (element) => element === document.activeElement && element !== live.wrong;
 const number = (id) => Number(byId(id).value);
+const rowOf = (name) => document.querySelector(`.switch[data-effect='${name}']`);
 const effectOf = (name) => live.state.effects.find((one) => one.name === name);
 
 /** The slider and the number of a muscle's command. */
 const currentIds = (muscle) => [`${command.name}-${muscle}`, `${command.name}-${muscle}-number`];
 function setCurrent(muscle, from) {
+  if (byId(from).value === '') return putBack(byId(from));
   for (const id of currentIds(muscle))
     if (id !== from) byId(id).value = byId(from).value;
-  if (byId(from).value !== '')
-    ask(muscle === 1 ? 'current' : 'current 2', {do: 'command', to: number(from), muscle});
+  ask(muscle === 1 ? 'current' : 'current 2', {do: 'command', to: number(from), muscle}, byId(from));
 }
 function setLoad(from) {
+  if (byId(from).value === '') return putBack(byId(from));
   const kg = from === 'load' ? Number(number('load').toPrecision(3)) : number(from);
-  if (byId(from).value === '') return;
   byId(from === 'load' ? 'load-number' : 'load').value = kg;
-  ask('load', {do: 'load', kg});
+  ask('load', {do: 'load', kg}, byId(from));
 }
-function setSweep(shape) {
-  if (shape === '')
-    ask('current', {do: 'command', to: live.state.wanted[0]});
-  else
-    ask('current', {do: 'sweep', shape, low: number('low'), high: number('high'), period: number('period')});
+const sweepIds = ['low', 'high', 'period'];
+function setSweep(shape, control) {
+  if (sweepIds.some((id) => byId(id).value === '')) return putBack(control);
+  const ends = Object.fromEntries(sweepIds.map((id) => [id, number(id)]));
+  const command = shape === '' ? {do: 'command', to: live.state.wanted[0]} : {do: 'sweep', shape, ...ends};
+  ask('current', command, control);
 }
 function setEffect(name, on, size, shape) {
-  ask('effect ' + name, {do: 'effect', name, on, size, shape: shape ?? 0});
+  ask('effect ' + name, {do: 'effect', name, on, size, shape: shape ?? 0}, rowOf(name));
 }
 
 function allOff() {
@@ -98,36 +117,33 @@ function dialOf(one, which, label) {
 /** As words: "muscle leak", "bladder elasticity linear". */
 const inWords = (name) => name.replaceAll('_', ' ');
 
-/** For lessons: one that is on and not shown to be, at up to twice its size at first. Its name, or null. */
-let hidden = null;
+/** For lessons: the program lets one act that is not shown, at up to twice its size at first. */
+const hidden = () => live.state.hidden;
 function hideOne() {
   const off = live.state.effects.filter(({on}) => !on);
   const {name, size, shape} = off[Math.floor(Math.random() * off.length)];
   const {size: dial} = report.switches.find((one) => one.name === name);
   const times = 1 + Math.random();
-  allOff();
-  hidden = name;
-  setEffect(name, true, Math.min(dial.most, Math.max(dial.least, times * size)), shape);
-  say('One effect is at work. Move the rig, look at the loops, and choose which one it is.');
-  showHidden();
+  const large = Math.min(dial.most, Math.max(dial.least, times * size));
+  ask('hide', {do: 'hide', name, size: large, shape: shape ?? 0}, byId('hide'));
 }
 function showHidden() {
-  byId('hide').hidden = hidden !== null;
-  byId('all-off').disabled = hidden !== null;
-  byId('guess-line').hidden = byId('give-up').hidden = hidden === null;
+  const one = hidden() !== '';
+  byId('hide').hidden = one;
+  byId('all-off').disabled = one;
+  byId('guess-line').hidden = byId('give-up').hidden = !one;
   byId('guess').value = '';
-  showSwitches(live.state.effects);
+  if (one) say('One effect is at work. Move the rig, look at the loops, and choose which one it is.');
 }
 function guess(name) {
   if (name === '') return;
-  if (name !== hidden) return say(`It is not ${inWords(name)}.`);
+  if (name !== hidden()) return say(`It is not ${inWords(name)}.`);
   reveal('Right: ');
 }
 function reveal(before) {
-  const {says} = effectOf(hidden);
-  say(`${before}${inWords(hidden)}, ${says}.`);
-  hidden = null;
-  showHidden();
+  const {name, says} = effectOf(hidden());
+  say(`${before}${inWords(name)}, ${says}.`);
+  ask('show', {do: 'show'}, byId('give-up'));
 }
 
 function makeSwitches() {
@@ -151,11 +167,11 @@ function makeSwitches() {
 
 function showSwitches(effects) {
   for (const now of effects) {
-    const row = document.querySelector(`.switch[data-effect='${now.name}']`);
-    const on = now.on && now.name !== hidden;
+    const row = rowOf(now.name);
+    const on = now.on && now.name !== hidden();
     row.classList.toggle('on', on);
     row.querySelector('input[type=checkbox]').checked = on;
-    row.querySelector('input[type=checkbox]').disabled = hidden !== null;
+    row.querySelector('input[type=checkbox]').disabled = hidden() !== '';
     row.lastElementChild.hidden = !on;
     for (const which of ['size', 'shape']) {
       const dial = row.querySelector(`[data-dial=${which}]`);
@@ -177,11 +193,8 @@ function showState(state) {
   if (before && rigOf(before) !== rigOf(state)) keepLoops(true);
   if (before && JSON.stringify(before.effects) !== JSON.stringify(state.effects))
     live.began = samples.newest();
-  showSwitches(state.effects);
-  for (const button of document.querySelectorAll('[data-sweep]'))
-    button.setAttribute('aria-pressed', button.dataset.sweep === (state.sweep?.shape ?? ''));
-  for (const id of pair ? [] : ['load', 'load-number'])
-    if (!inUse(byId(id))) byId(id).value = state.load_kg;
+  showControls(state);
+  if (state.hidden !== (before?.hidden ?? '')) showHidden();
   if (!state.sweep && (!before || before.sweep)) showCurrents(state.wanted);
   byId('pause').textContent = state.running ? 'Pause' : 'Go on';
   byId('pace').hidden = state.pace > 0.9;
@@ -195,6 +208,21 @@ function showState(state) {
   if (state.message.number > 0 && state.message.number !== before?.message.number) say(state.message.text);
 }
 
+function showControls(state) {
+  showSwitches(state.effects);
+  for (const button of document.querySelectorAll('[data-sweep]'))
+    button.setAttribute('aria-pressed', button.dataset.sweep === (state.sweep?.shape ?? ''));
+  for (const id of pair ? [] : ['load', 'load-number'])
+    if (!inUse(byId(id))) byId(id).value = state.load_kg;
+  if (state.sweep) showSweep(state.sweep);
+}
+
+function showSweep(sweep) {
+  live.sweep = sweep;
+  for (const id of sweepIds)
+    if (!inUse(byId(id))) byId(id).value = sweep[id];
+}
+
 /** Sliders go along with a sweep. */
 function showCurrents(values) {
   values.forEach((value, i) => {
@@ -206,35 +234,41 @@ function showCurrents(values) {
 function prepareControls() {
   const {zero, span} = command, {lowest, largest} = report.dac;
   const muscles = currentColumns.map((_, i) => i + 1);
+  /** A slider acts while it moves, a number once it is whole. */
+  const onSet = (id, set) =>
+      byId(id).addEventListener(byId(id).type === 'range' ? 'input' : 'change', () => set(id));
   for (const id of [...muscles.flatMap(currentIds), 'low', 'high']) {
     byId(id).min = lowest;
     byId(id).max = largest;
   }
-  byId('low').value = zero;
-  byId('high').value = Math.min(largest, span);
+  showSweep({low: zero, high: Math.min(largest, span), period: 10});
   byId('from-rest').disabled = pair;  // what else their data sets cannot say
   makeSwitches();
   for (const muscle of muscles)
-    for (const id of currentIds(muscle)) byId(id).addEventListener('input', () => setCurrent(muscle, id));
+    for (const id of currentIds(muscle)) onSet(id, () => setCurrent(muscle, id));
   if (!pair) {
-    byId('load').min = Number((0.1 * report.load_kg).toPrecision(2));
-    byId('load').max = Number((4 * report.load_kg).toPrecision(2));
-    for (const id of ['load', 'load-number']) byId(id).addEventListener('input', () => setLoad(id));
+    const {least_kg, most_kg} = report.loads;
+    Object.assign(byId('load'), {
+      min: Math.max(least_kg, Number((0.1 * report.load_kg).toPrecision(2))),
+      max: Math.min(most_kg, Number((4 * report.load_kg).toPrecision(2)))
+    });
+    Object.assign(byId('load-number'), {min: least_kg, max: most_kg});
+    for (const id of ['load', 'load-number']) onSet(id, setLoad);
   }
   for (const button of document.querySelectorAll('[data-sweep]'))
-    button.addEventListener('click', () => setSweep(button.dataset.sweep));
-  for (const id of ['low', 'high', 'period'])
-    byId(id).addEventListener('change', () => {
-      if (live.state.sweep) setSweep(live.state.sweep.shape);
+    button.addEventListener('click', () => setSweep(button.dataset.sweep, button));
+  for (const id of sweepIds)
+    onSet(id, () => {
+      if (live.state.sweep) setSweep(live.state.sweep.shape, byId(id));
     });
-  byId('pause').addEventListener('click', () => ask('run', {do: 'run', on: !live.state.running}));
-  for (const id of ['again', 'alarm-again'])
-    byId(id).addEventListener('click', () => ask('again', {do: 'again'}));
-  byId('record').addEventListener(
-      'click',
-      () =>
-          ask('record',
-              live.state.recording ? {do: 'stop'} : {do: 'record', from_rest: byId('from-rest').checked}));
+  const asks = (id, kind, command) =>
+      byId(id).addEventListener('click', () => ask(kind, command(), byId(id)));
+  asks('pause', 'run', () => ({do: 'run', on: !live.state.running}));
+  asks('again', 'again', () => ({do: 'again'}));
+  asks('alarm-again', 'again', () => ({do: 'again'}));
+  asks(
+      'record', 'record',
+      () => live.state.recording ? {do: 'stop'} : {do: 'record', from_rest: byId('from-rest').checked});
   byId('hide').addEventListener('click', hideOne);
   byId('guess').addEventListener('change', () => guess(byId('guess').value));
   byId('give-up').addEventListener('click', () => reveal('It was '));

@@ -59,8 +59,9 @@ const samples = {
 
 const turns = unitOf.encoder_angle !== undefined;  // a lever's angle is read, or that of two muscles
 const read = turns ? 'encoder_angle' : 'encoder_contraction_ratio';
+const thin = 1.6, wide = 5;  // pixels of lines: a wide one is seen beneath another
 const pairTimePlots = [
-  {title: 'Joint angle', lines: [['angle', 'true'], [read, 'as counted']]},
+  {title: 'Joint angle', lines: [['angle', 'true', wide], [read, 'as counted']]},
   {
     title: 'Pressures',
     lines: [
@@ -76,7 +77,7 @@ const pairTimePlots = [
 ];
 const singleTimePlots = [
   turns ? pairTimePlots[0] :
-          {title: 'Contraction', lines: [['contraction_ratio', 'true'], [read, 'as counted']]},
+          {title: 'Contraction', lines: [['contraction_ratio', 'true', wide], [read, 'as counted']]},
   {
     title: 'Pressures',
     lines: [['muscle_pressure', 'muscle'], ['reference_pressure', 'commanded'], ['valve_pressure', 'valve']]
@@ -92,18 +93,18 @@ const timePlots = pair ? pairTimePlots : singleTimePlots;
 /** Differences are those of muscle 1 less muscle 2. */
 const pairLoopPlots = [
   {
-    title: 'Counted angle over the difference of commanded pressures',
-    x: 'reference_pressure_1 - reference_pressure_2',
-    y: read
+    title: 'Difference of commanded pressures over the counted angle',
+    x: read,
+    y: 'reference_pressure_1 - reference_pressure_2'
   },
   {title: 'Difference of pressures over the angle', x: 'angle', y: 'muscle_pressure_1 - muscle_pressure_2'},
   {title: 'Difference of forces over the angle', x: 'angle', y: 'tension_1 - tension_2'},
 ];
 const singleLoopPlots = [
   {
-    title: `Counted ${turns ? 'angle' : 'contraction'} over commanded pressure`,
-    x: 'reference_pressure',
-    y: read
+    title: `Commanded pressure over the counted ${turns ? 'angle' : 'contraction'}`,
+    x: read,
+    y: 'reference_pressure'
   },
   {title: 'Pressure of the muscle over its contraction', x: 'contraction_ratio', y: 'muscle_pressure'},
   {title: 'Force of the braid over the contraction', x: 'contraction_ratio', y: 'braid_force'},
@@ -127,9 +128,9 @@ class Cell {
   constructor(into, title, unit, keys) {
     this.box = make('div', {class: 'plot'});
     const head = make('h3', {}, title, ' ', make('span', {class: 'unit small'}, unit));
-    const key = ([, label], i) => {
-      const line = make('path', {d: 'M0 5H34', class: 'run k' + i});
-      return make('span', {}, make('svg', {viewBox: '0 0 34 10', 'aria-hidden': 'true'}, line), label);
+    const key = ([, label, width = thin], i) => {
+      const line = make('path', {d: 'M0 5H24', class: 'k' + i, 'stroke-width': width});
+      return make('span', {}, make('svg', {viewBox: '0 0 24 10', 'aria-hidden': 'true'}, line), label);
     };
     const legend = keys.length > 1 ? [make('p', {class: 'keys'}, ...keys.map(key))] : [];
     this.cell = make('div', {class: 'cell', role: 'img', 'aria-label': title}, head, ...legend, this.box);
@@ -148,7 +149,8 @@ class TimePlot extends Cell {
     super(byId('plots'), plot.title, unit, plot.lines);
     this.names = plot.lines.map(([name]) => name);
     this.factor = factor;
-    const series = ([, label], i) => ({label, stroke: colour('c' + i), width: 1.6, points: {show: false}});
+    const series = ([, label, width = thin], i) =>
+        ({label, stroke: colour('c' + i), width, points: {show: false}});
     const seconds = (_, values) => values.map((value) => +value.toFixed(3) + ' s');
     this.chart = new uPlot(
         {
@@ -178,7 +180,7 @@ function trace(dot) {
       const x = (i) => toX(xs[i], scaleX, width, left), y = (i) => toY(ys[i], scaleY, height, top);
       ctx.save();
       ctx.strokeStyle = ctx.fillStyle = series.stroke(u, index);
-      ctx.lineWidth = 1.6 * devicePixelRatio;
+      ctx.lineWidth = thin * devicePixelRatio;
       ctx.lineJoin = 'round';
       ctx.beginPath();
       let [lastX, lastY] = [-9, -9];

@@ -1,5 +1,7 @@
 // With Boost.Beast, in one thread; see the header. No other file names it. Whatever a client does or leaves
-// undone, a deadline ends it: of a request with all of its parts, of an answer, of each piece of news.
+// undone, a deadline ends it: of a request with all of its parts, of an answer, of each piece of news. Debian
+// 12's cpp-httplib (0.11.4) has a thread per connection, no deadline for a request, and no limit on heads and
+// chunked bodies (CVE-2025-46728, -53628, -53629).
 #define BOOST_ASIO_DISABLE_FENCED_BLOCK  // one thread does all the work; ThreadSanitizer knows no fences
 #include <array>
 #include <chrono>

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <controllers/waveform.hpp>
+#include <plant/command.hpp>
+#include <plant/geometry.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/live/session.hpp>
@@ -73,13 +75,13 @@ void Session::guarded(const Work& work) {
   }
 }
 
-std::string Session::out_of_dac(const char* key, double command) const {
-  return out_of_range(key, command, rig_.dac.lowest_command, rig_.dac.largest_command,
-                      name_of(rig_.command_unit()));
+std::string Session::out_of_dac(const char* of_current, double command) const {
+  return out_of_range(plant::in_unit(rig_.command_unit(), of_current), command, rig_.dac.lowest_command,
+                      rig_.dac.largest_command, name_of(rig_.command_unit()));
 }
 
 std::string Session::set_command(double command, std::int64_t muscle) {
-  std::string why = out_of_dac("to", command);
+  std::string why = out_of_dac("current", command);
   if (why.empty() && muscle != 1 && !(pair() && muscle == 2))
     why = fmt::format("muscle = {}: there is none of that number", muscle);
   if (!why.empty()) return why;
@@ -89,26 +91,34 @@ std::string Session::set_command(double command, std::int64_t muscle) {
 }
 
 std::string Session::set_sweep(const Sweep& sweep) {
-  std::string why = out_of_dac("low", sweep.low_mA);
-  if (why.empty()) why = out_of_dac("high", sweep.high_mA);
+  std::string why = out_of_dac("lowest current", sweep.low_mA);
+  if (why.empty()) why = out_of_dac("highest current", sweep.high_mA);
   if (why.empty()) why = out_of_range("period", sweep.period_s, shortest_period_s, longest_period_s, "s");
   if (why.empty() && !(sweep.high_mA > sweep.low_mA))
-    why = fmt::format("high = {:g}: must be above low, which is {:g} {}", sweep.high_mA, sweep.low_mA,
-                      name_of(rig_.command_unit()));
+    why = plant::in_unit(rig_.command_unit(),
+                         fmt::format("highest current = {:g} mA: must be above the lowest, which is {:g} mA",
+                                     sweep.high_mA, sweep.low_mA));
   if (!why.empty()) return why;
   sweep_ = sweep;
   sweep_begin_s_ = time_s() - sweep.when(commands_[0]);
   return "";
 }
 
+Session::Loads Session::loads() const {
+  const double none_kg = rig_.pulled_kg(0.0), each = rig_.pulled_kg(1.0) - none_kg;
+  const double most_kg = (plant::Braid(rig_.muscle).largest_load_kg() - none_kg) / each;
+  const double digit = std::pow(10.0, std::floor(std::log10(most_kg)) - 2.0);
+  return {std::max(0.0, -rig_.joint.load_offset_kg), std::min(500.0, std::floor(most_kg / digit) * digit)};
+}
+
 std::string Session::set_load(double load_kg) {
-  std::string why = pair() ? "kg: two muscles turn a link; no load hangs there"
-                           : out_of_range("kg", load_kg, 0.0, 500.0, "kg");
+  if (pair()) return "load: two muscles turn a link; none hangs there";
+  const auto [least_kg, most_kg] = loads();
+  std::string why = out_of_range("load", load_kg, least_kg, most_kg, "kg");
+  if (const std::string heavy = input::too_heavy(load_kg, rig_); !why.empty() && !heavy.empty())
+    why += "; " + heavy;
   if (why.empty() && !rig_.can_hang(load_kg))
-    why = fmt::format("kg = {:g}: {}", load_kg, input::no_mass(rig_));
-  if (why.empty())
-    if (const std::string heavy = input::too_heavy(load_kg, rig_); !heavy.empty())
-      why = fmt::format("kg = {:g}: {}", load_kg, heavy);
+    why = fmt::format("load = {:g} kg: {}", load_kg, input::no_mass(rig_));
   if (!why.empty()) return why;
   load_kg_ = load_kg;
   go_on();
@@ -117,6 +127,12 @@ std::string Session::set_load(double load_kg) {
 
 std::string Session::set_effect(std::string_view name, bool on, double size, double shape) {
   if (std::string why = switches_.set(name, on, size, shape); !why.empty()) return why;
+  go_on();
+  return "";
+}
+
+std::string Session::hide_effect(std::string_view name, double size, double shape) {
+  if (std::string why = switches_.hide(name, size, shape); !why.empty()) return why;
   go_on();
   return "";
 }

@@ -43,7 +43,15 @@ class Session {
   /// Goes on from the present command, if it is within. Of a pair muscle 2 goes against muscle 1.
   std::string set_sweep(const Sweep& sweep);
   std::string set_load(double load_kg);
+  /// What can be hung on, as far as the taut threads bear it.
+  struct Loads {
+    double least_kg, most_kg;
+  };
+  Loads loads() const;
   std::string set_effect(std::string_view name, bool on, double size, double shape);
+  std::string hide_effect(std::string_view name, double size, double shape);  ///< Switches::hide
+
+  void show_effect() { switches_.show(); }
 
   /// At rest under the present command, or under a sweep's first one, for the rig's settling time; the time
   /// is 0.
@@ -70,7 +78,7 @@ class Session {
   void go_on();
   template <class Work>
   void guarded(const Work& work);
-  std::string out_of_dac(const char* key, double command) const;
+  std::string out_of_dac(const char* of_current, double command) const;
   Commands wanted_at(double time_s) const;
   void hold(const Commands& wanted);
   double time_s() const { return static_cast<double>(tick_) * rig_.tick_s; }

@@ -79,10 +79,11 @@ Switch switch_of(const diagnose::Candidate& candidate, const plant::Rig& file) {
 
 }  // namespace
 
-std::string out_of_range(std::string_view key, double value, double low, double high, std::string_view unit) {
+std::string out_of_range(std::string_view what, double value, double low, double high,
+                         std::string_view unit) {
   if (std::isfinite(value) && value >= low && value <= high) return "";
-  return fmt::format("{} = {:g}: must be from {:g} to {:g}{}{}", key, value, low, high,
-                     unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+  const std::string of = unit == "1" ? "" : fmt::format(" {}", unit);
+  return fmt::format("{} = {:g}{}: must be from {:g} to {:g}{}", what, value, of, low, high, of);
 }
 
 Switches::Switches(const plant::Rig& rig) : bare_(rig), file_(rig) {
@@ -101,11 +102,25 @@ const Switch* Switches::find(std::string_view name) const {
   return found == all_.end() ? nullptr : &*found;
 }
 
+std::string Switches::hide(std::string_view name, double size, double shape) {
+  const std::vector<Switch> before = all_;
+  if (hidden_.empty())
+    for (Switch& one : all_) one.on = false;
+  std::string why = set(name, true, size, shape);
+  if (why.empty())
+    hidden_ = name;
+  else
+    all_ = before;
+  return why;
+}
+
 std::string Switches::set(std::string_view name, bool on, double size, double shape) {
+  if (!hidden_.empty())
+    return "an effect is hidden: choose which one it is, or show it, before others are switched";
   const auto found = std::ranges::find(all_, name, &Switch::name);
   if (found == all_.end()) return fmt::format("name = {}: there is no such effect", name);
-  const auto refusal = [](std::string_view key, const Dial& dial, double value) {
-    return out_of_range(key, value, dial.lowest, dial.highest, dial.unit);
+  const auto refusal = [&](std::string_view which, const Dial& dial, double value) {
+    return out_of_range(fmt::format("{} of {}", which, name), value, dial.lowest, dial.highest, dial.unit);
   };
   std::string why = refusal("size", found->size, size);
   if (why.empty() && found->has_shape()) why = refusal("shape", found->shape, shape);

@@ -18,8 +18,8 @@ struct Dial {
   double value = 0.0;
 };
 
-/// Why a number cannot be set; empty if it can.
-std::string out_of_range(std::string_view key, double value, double low, double high, std::string_view unit);
+/// Why a number cannot be set; empty if it can. `what`: in words.
+std::string out_of_range(std::string_view what, double value, double low, double high, std::string_view unit);
 
 /// One law of one effect.
 struct Switch {
@@ -48,6 +48,12 @@ class Switches {
   /// empty if it can. `size`, `shape`: in SI.
   std::string set(std::string_view name, bool on, double size, double shape);
 
+  /// For lessons: only this one is on, and nothing can be switched until it is shown. Says why it cannot.
+  std::string hide(std::string_view name, double size, double shape);
+  void show() { hidden_.clear(); }
+  /// The name of the one that is hidden; empty if there is none.
+  const std::string& hidden() const { return hidden_; }
+
   /// The rig with what is on.
   plant::Rig rig() const;
   /// The same as its owner knows it: of what is on, only what the file has, as the file has it.
@@ -58,6 +64,7 @@ class Switches {
 
   plant::Rig bare_, file_;  // without what can be switched; as it was read
   std::vector<Switch> all_;
+  std::string hidden_;
 };
 
 }  // namespace mckibben::live

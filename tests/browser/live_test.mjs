@@ -26,6 +26,12 @@ after(async () => {
 const seen = (page, what) => page.evaluate((name) => samples.at(samples.newest())[name], what);
 const until = (page, so, given) => page.waitForFunction(so, given, {timeout: 300000});
 
+/** Types a number and confirms it. */
+async function set(page, field, number) {
+  await page.fill(field, number);
+  await page.press(field, 'Enter');
+}
+
 /** Opens it; `end` looks after what it complained of (but that something was refused) and asked for. */
 async function live(options, {address} = one) {
   const opened = await look(address, options);
@@ -50,14 +56,14 @@ test('the slider lifts the load, and the picture and the plots follow', async ()
   await until(page, () => Number(document.querySelector('#rig path.tube').dataset.length) < 0.28);
   await until(page, () => timed[0].chart.data[1].some((mm) => mm > 30));
   await until(page, () => loops[1].values[0].length > 10);
-  await page.fill('#current-1-number', '4');
+  await set(page, '#current-1-number', '4');
   await until(page, (from) => samples.at(samples.newest()).contraction_ratio < from + 0.02, low);
   await end();
 });
 
 test('a lighter load rises, an effect is switched and sized, both leave a grey loop', async () => {
   const {page, end} = await live();
-  await page.fill('#period', '2');
+  await set(page, '#period', '2');
   await page.locator('[data-sweep=\'sine\']').click();
   await until(page, () => live.state.sweep?.period === 2 && samples.newest() - live.began > 3);
   assert.equal(await page.getAttribute('[data-sweep=\'sine\']', 'aria-pressed'), 'true');
@@ -77,18 +83,15 @@ test('a lighter load rises, an effect is switched and sized, both leave a grey l
   await page.locator('#all-off').click();
   await until(page, () => live.state.effects.every(({on}) => !on));
   assert.ok(await row.locator('[data-dial=size]').isHidden());
-  await page.fill('#load-number', '8');
+  await set(page, '#load-number', '8');
   await until(page, () => live.state.load_kg === 8);
   await until(page, () => document.querySelector('#rig .load-text').textContent === '8 kg');
-  await page.fill('#load-number', '900');
-  await until(page, () => document.getElementById('message').textContent.startsWith('kg = 900: must be'));
-  assert.equal(await page.evaluate(() => live.state.load_kg), 8);
-  await page.fill('#load-number', '16.138');
+  await set(page, '#load-number', '16.138');
   await until(page, () => live.state.load_kg === 16.138);
   await end();
 });
 
-test('it opens moving, and an effect that is hidden is found by a guess', async () => {
+test('it opens moving, and an effect that is hidden stays so until a guess finds it', async () => {
   const game = await started('thesis', '--out', 'live/game');
   const {page, end} = await live({}, game);
   assert.equal(await page.getAttribute('[data-sweep=\'sine\']', 'aria-pressed'), 'true');
@@ -101,14 +104,115 @@ test('it opens moving, and an effect that is hidden is found by a guess', async 
     const at = live.state.effects.findIndex(({on}) => on), {length} = live.state.effects;
     return [live.state.effects[at].name, live.state.effects[(at + 1) % length].name];
   });
+  // Another page, and the same one after a reload, do not give it away.
+  const other = await live({}, game);
+  await page.reload();
+  for (const each of [page, other.page]) {
+    await until(each, () => !document.getElementById('guess-line').hidden);
+    assert.equal(await each.locator('.switch input:checked, .switch.on').count(), 0);
+    assert.match(await each.textContent('#message'), /^One effect is at work/);
+    assert.ok(await each.locator('#all-off').isDisabled());
+  }
   await page.selectOption('#guess', wrong);
   assert.equal(await page.textContent('#message'), `It is not ${wrong.replaceAll('_', ' ')}.`);
   await page.selectOption('#guess', right);
   assert.match(
       await page.textContent('#message'), new RegExp(`^Right: ${right.replaceAll('_', ' ')}, .*[0-9]`));
-  assert.equal(await page.locator('.switch.on').getAttribute('data-effect'), right);
+  for (const each of [page, other.page]) {
+    await until(each, () => document.getElementById('guess-line').hidden);
+    assert.equal(await each.locator('.switch.on').getAttribute('data-effect'), right);
+  }
+  await other.end();
   await end();
   game.program.kill('SIGINT');
+});
+
+test('a refused value gives way to the rig\'s, with the reason below the control', async () => {
+  const {page, end} = await live();
+  const refused = async (field, value, kept, why) => {
+    await set(page, field, value);
+    await until(page, ([text]) => document.querySelector('.refused')?.textContent.startsWith(text), [why]);
+    assert.equal(Number(await page.inputValue(field)), kept, field);
+    assert.ok(await page.locator('fieldset', {has: page.locator(field)}).locator('.refused').isVisible());
+  };
+  await set(page, '#load-number', '9');
+  await until(page, () => live.state.load_kg === 9);
+  const {most_kg} = await page.evaluate(() => report.loads);
+  await refused('#load-number', '-3', 9, `load = -3 kg: must be from 0 to ${most_kg} kg`);
+  await refused('#load-number', '900', 9, `load = 900 kg: must be from 0 to ${most_kg} kg`);
+  await set(page, '#load-number', '');
+  assert.equal(await page.inputValue('#load-number'), '9');
+  await set(page, '#current-1-number', '7');
+  await refused('#current-1-number', '30', 7, 'current = 30 mA: must be from 0 to 20 mA');
+  await set(page, '#period', '5');
+  await page.locator('[data-sweep=\'stairs\']').click();
+  await until(page, () => live.state.sweep?.period === 5);
+  assert.equal(await page.textContent('.refused'), '');
+  await refused('#period', '0.01', 5, 'period = 0.01 s: must be from 0.1 to 1000 s');
+  await refused('#high', '3', 20, 'highest current = 3 mA: must be above the lowest, which is 4 mA');
+  await end();
+});
+
+test('after a reload the fields of a sweep are those of the rig', async () => {
+  const {page, end} = await live();
+  await set(page, '#high', '11');
+  await set(page, '#period', '6');
+  await page.locator('[data-sweep=\'stairs\']').click();
+  await until(page, () => live.state.sweep?.shape === 'stairs' && live.state.sweep.period === 6);
+  await page.reload();
+  await until(page, () => live.state?.sweep);
+  const shown = await page.evaluate(() => sweepIds.map((id) => number(id)));
+  assert.deepEqual(shown, [4, 11, 6]);
+  await end();
+});
+
+test('plots follow the window, narrower and wider', async () => {
+  const {page, end} = await live({viewport: {width: 1920, height: 900}});
+  for (const width of [1000, 500, 1920]) {
+    await page.setViewportSize({width, height: 900});
+    await until(page, () => [...timed, ...loops].every(({box, chart}) => box.clientWidth === chart.width));
+    const [whole, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(whole <= inner, `${whole} > ${inner}`);
+  }
+  await end();
+});
+
+test('lines are seen beneath one another, keys are like them, loops lie alike', async () => {
+  const {page, end} = await live();
+  await until(page, () => samples.newest() > 3 && timed[0].chart.data[0].length > 100);
+  // How often each line's colour is in the plot of contraction, where counted and true nearly agree.
+  const [under, above] = await page.evaluate(() => {
+    const {chart} = timed[0], {width, height} = chart.ctx.canvas;
+    const {data} = chart.ctx.getImageData(0, 0, width, height);
+    return ['c0', 'c1'].map((name) => {
+      const hex = colour(name);
+      const rgb = [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16));
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4)
+        if (rgb.every((value, k) => Math.abs(value - data[i + k]) < 8) && data[i + 3] > 250) ++count;
+      return count;
+    });
+  });
+  assert.ok(under > 300 && above > 100, `${under}, ${above}`);
+  const keys = await page.evaluate(
+      () => timed.filter(({chart}) => chart.series.length > 2)
+                .map(
+                    ({cell, chart}) => [
+                        [...cell.querySelectorAll('.keys path')].map((path) => {
+                          const {stroke, strokeWidth} = getComputedStyle(path);
+                          return [stroke, parseFloat(strokeWidth) * path.ownerSVGElement.getScreenCTM().a];
+                        }),
+                        chart.series.slice(1).map((one) => {
+                          document.body.style.outlineColor = one.stroke();
+                          return [getComputedStyle(document.body).outlineColor, one.width];
+                        })]));
+  assert.ok(keys.length >= 3);
+  for (const [shown, drawn] of keys) assert.deepEqual(shown, drawn);
+  const names = await page.evaluate(() => loops.map(({names}) => names));
+  assert.deepEqual(
+      names.slice(0, 2),
+      [['encoder_contraction_ratio', 'reference_pressure'], ['contraction_ratio', 'muscle_pressure']]);
+  await end();
 });
 
 test('pause by the space bar, begin again, and a recording that replays', async () => {
@@ -121,7 +225,7 @@ test('pause by the space bar, begin again, and a recording that replays', async 
   await page.locator('[data-sweep=\'triangle\']').click();
   await until(page, () => live.state.sweep?.shape === 'triangle');
   await page.locator('#record').click();
-  await until(page, () => live.state.recording && samples.newest() > 3 && samples.newest() < 200);
+  await until(page, () => /^recording, [3-9]/.test(document.getElementById('recording').textContent));
   await page.locator('#record').click();
   await until(page, () => /^Recorded .* run 1\.$/.test(document.getElementById('message').textContent));
   const folder = /into (\S+), run/.exec(await page.textContent('#message'))[1];
@@ -135,14 +239,14 @@ test('pause by the space bar, begin again, and a recording that replays', async 
 
 test('two muscles have a slider each, and sweeps against each other', async () => {
   const {page, end} = await live({}, two);
-  await page.fill('#current-1-number', '4');
-  await page.fill('#current-2-number', '14');
+  await set(page, '#current-1-number', '4');
+  await set(page, '#current-2-number', '14');
   await until(page, () => samples.at(samples.newest()).angle < -5);
   await until(page, () => Math.abs(document.querySelector('#rig .load').getAttribute('cx') - 420) > 5);
-  await page.fill('#current-1-number', '18');
+  await set(page, '#current-1-number', '18');
   await until(page, () => samples.at(samples.newest()).angle > 2);
   assert.match(await page.textContent('#rig'), /muscle 2: 14\.00 mA/);
-  await page.fill('#period', '2');
+  await set(page, '#period', '2');
   await page.locator('[data-sweep=\'sine\']').click();
   await until(page, () => live.state.sweep && samples.newest() - live.began > 3);
   await until(page, () => loops.every(({values}) => values[0].length > 10));

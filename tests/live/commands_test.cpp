@@ -31,6 +31,11 @@ TEST(LiveCommands, EachIsRead) {
       read_command(R"({"do": "effect", "name": "muscle_leak", "on": true, "size": 1e-10, "shape": 0})"));
   EXPECT_EQ(effect.name, "muscle_leak");
   EXPECT_TRUE(effect.on);
+  const auto hidden = std::get<HideEffect>(
+      read_command(R"({"do": "hide", "name": "bladder_creep", "size": 100, "shape": 5})"));
+  EXPECT_EQ(hidden.name, "bladder_creep");
+  EXPECT_EQ(hidden.shape, 5.0);
+  EXPECT_TRUE(std::holds_alternative<ShowEffect>(read_command(R"({"do": "show"})")));
   EXPECT_TRUE(std::holds_alternative<StartOver>(read_command(R"({"do": "again"})")));
   EXPECT_FALSE(std::get<SetRunning>(read_command(R"({"do": "run", "on": false})")).on);
   EXPECT_TRUE(std::get<Record>(read_command(R"({"do": "record", "from_rest": true})")).from_rest);
@@ -45,7 +50,7 @@ TEST(LiveCommands, NonsenseIsRefusedWithWhatIsWrong) {
   EXPECT_EQ(refusal("{}"), "do: is missing");
   EXPECT_EQ(refusal(R"({"do": 3})"), "do = 3: must be a text");
   EXPECT_EQ(refusal(R"({"do": "explode"})"),
-            "do = \"explode\": must be command, sweep, load, effect, again, run, record or stop");
+            "do = \"explode\": must be command, sweep, load, effect, hide, show, again, run, record or stop");
   EXPECT_EQ(refusal(R"({"do": "command"})"), "to: is missing");
   EXPECT_EQ(refusal(R"({"do": "command", "to": "9"})"), "to = \"9\": must be a number");
   EXPECT_EQ(refusal(R"({"do": "command", "to": null})"), "to = null: must be a number");
@@ -54,7 +59,7 @@ TEST(LiveCommands, NonsenseIsRefusedWithWhatIsWrong) {
   EXPECT_EQ(refusal(R"({"do": "run", "on": 1})"), "on = 1: must be true or false");
   EXPECT_EQ(refusal(R"({"do": "sweep", "shape": "saw", "low": 4, "high": 12, "period": 7})"),
             "shape = \"saw\": must be sine, triangle or stairs");
-  EXPECT_LT(refusal("{\"do\": \"" + std::string(3000, 'x') + "\"}").size(), 120u) << "words are cut short";
+  EXPECT_LT(refusal("{\"do\": \"" + std::string(3000, 'x') + "\"}").size(), 140u) << "words are cut short";
   EXPECT_NE(refusal("{\"do\": \"command\", \"to\": " + std::string(400, '9') + "}"), "");
 }
 

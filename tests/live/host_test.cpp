@@ -95,7 +95,7 @@ TEST_F(LiveHost, RefusesWhatIsNotTheTimeFor) {
   EXPECT_EQ(host.obey(StopRecording{}), "nothing is being recorded");
   ASSERT_EQ(host.obey(Record{false}), "");
   EXPECT_EQ(host.obey(Record{false}), "a recording is under way");
-  EXPECT_EQ(host.obey(SetCommand{99.0}), "to = 99: must be from 0 to 20 mA");
+  EXPECT_EQ(host.obey(SetCommand{99.0}), "current = 99 mA: must be from 0 to 20 mA");
   ASSERT_EQ(host.obey(StopRecording{}), "");
   host.write_recordings(say);
   EXPECT_FALSE(fs::exists(scratch / "out")) << "a handful of rows is no run";

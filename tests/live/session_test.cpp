@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sim/live/session.hpp>
@@ -54,7 +55,7 @@ TEST(LiveSession, OfARigInVoltsIsMovedByVolts) {
   rig.dac = plant::dac_for(rig.valve);
   Session session(rig, load_kg);
   EXPECT_EQ(session.step().current_mA, -5.0);
-  EXPECT_EQ(session.set_command(9.0), "to = 9: must be from -5 to 5 V");
+  EXPECT_EQ(session.set_command(9.0), "command = 9 V: must be from -5 to 5 V");
   EXPECT_EQ(session.set_command(4.0), "");
   go(session, 200);
   EXPECT_NEAR(session.now().current_mA, 4.0, 10.0 / 4096.0);
@@ -130,16 +131,18 @@ TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
   Session session(plant::Rig{}, load_kg);
   ASSERT_EQ(session.set_command(9.0), "");
   const double nan = std::nan("");
-  EXPECT_EQ(session.set_command(20.5), "to = 20.5: must be from 0 to 20 mA");
-  EXPECT_EQ(session.set_command(nan), "to = nan: must be from 0 to 20 mA");
+  EXPECT_EQ(session.set_command(20.5), "current = 20.5 mA: must be from 0 to 20 mA");
+  EXPECT_EQ(session.set_command(nan), "current = nan mA: must be from 0 to 20 mA");
   EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 9.0, 9.0, 5.0}),
-            "high = 9: must be above low, which is 9 mA");
-  EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 4.0, 9.0, 0.0}), "period = 0: must be from 0.1 to 1000 s");
-  EXPECT_EQ(session.set_load(-1.0), "kg = -1: must be from 0 to 500 kg");
+            "highest current = 9 mA: must be above the lowest, which is 9 mA");
+  EXPECT_EQ(session.set_sweep({Sweep::Shape::sine, 4.0, 9.0, 0.0}),
+            "period = 0 s: must be from 0.1 to 1000 s");
+  EXPECT_EQ(session.set_load(-1.0), "load = -1 kg: must be from 0 to 147 kg");
   EXPECT_EQ(session.set_effect("leak", true, 1e-10, 0.0), "name = leak: there is no such effect");
   EXPECT_EQ(session.set_effect("muscle_leak", true, -1.0, 0.0),
-            "size = -1: must be from 0 to 1e-08 m3/(s.Pa)");
-  EXPECT_EQ(session.set_effect("bladder_creep", true, 100.0, 0.0), "shape = 0: must be from 0.02 to 1000 s");
+            "size of muscle_leak = -1 m3/(s.Pa): must be from 0 to 1e-08 m3/(s.Pa)");
+  EXPECT_EQ(session.set_effect("bladder_creep", true, 100.0, 0.0),
+            "shape of bladder_creep = 0 s: must be from 0.02 to 1000 s");
   EXPECT_EQ(session.set_command(9.0, 2), "muscle = 2: there is none of that number");
   EXPECT_EQ(session.wanted()[0], 9.0);
   EXPECT_EQ(session.load_kg(), load_kg);
@@ -148,12 +151,36 @@ TEST(LiveSession, WhatCannotBeIsRefusedWithItsRuleAndChangesNothing) {
   EXPECT_TRUE(session.rig().effects.absent());
 }
 
+TEST(LiveSession, AnEffectThatIsHiddenActsAloneAndStaysHiddenUntilItIsShown) {
+  Session session(plant::Rig{}, load_kg);
+  ASSERT_EQ(session.set_effect("muscle_leak", true, 1e-10, 0.0), "");
+  EXPECT_NE(session.hide_effect("leak", 1.0, 1.0), "");
+  EXPECT_TRUE(session.switches().find("muscle_leak")->on);
+  ASSERT_EQ(session.hide_effect("bladder_creep", 100.0, 5.0), "");
+  EXPECT_EQ(session.switches().hidden(), "bladder_creep");
+  EXPECT_FALSE(session.switches().find("muscle_leak")->on);
+  EXPECT_NE(session.set_effect("muscle_leak", true, 1e-10, 0.0), "");
+  EXPECT_NE(session.hide_effect("muscle_leak", 1e-10, 0.0), "");
+  session.start_over();
+  EXPECT_EQ(session.switches().hidden(), "bladder_creep");
+  EXPECT_TRUE(session.switches().find("bladder_creep")->on);
+  session.show_effect();
+  EXPECT_EQ(session.set_effect("muscle_leak", true, 1e-10, 0.0), "");
+}
+
 TEST(LiveSession, TooHeavyALoadIsRefused) {
   plant::Rig rig;
   rig.muscle.stop_stiffness_N_per_m = 1e4;
   Session session(rig, 1.0);
-  EXPECT_NE(session.set_load(400.0).find("the taut threads of this muscle bear"), std::string::npos);
+  const auto [least_kg, most_kg] = session.loads();
+  EXPECT_EQ(least_kg, 0.0);
+  EXPECT_LT(most_kg, 400.0);
+  const std::string why = session.set_load(400.0);
+  EXPECT_TRUE(why.starts_with(fmt::format("load = 400 kg: must be from 0 to {:g} kg; the taut", most_kg)))
+      << why;
+  EXPECT_NE(session.set_load(1.01 * most_kg), "");
   EXPECT_EQ(session.load_kg(), 1.0);
+  EXPECT_EQ(session.set_load(most_kg), "");
 }
 
 // A law of the user's own that is no number above a contraction.
@@ -235,7 +262,7 @@ TEST(LivePair, StepsAreThoseOfARideToTheBitAndASweepSetsThemAgainstEachOther) {
 TEST(LivePair, EffectsActOnBothMusclesAndLeaveTheStateAsItIs) {
   Session names(plant::thesis_pair(), 0.0);
   EXPECT_EQ(names.switches().find("guide_friction"), nullptr) << "no guide of a load";
-  EXPECT_EQ(names.set_load(5.0), "kg: two muscles turn a link; no load hangs there");
+  EXPECT_EQ(names.set_load(5.0), "load: two muscles turn a link; none hangs there");
   for (const Switch& one : names.switches().all()) {
     Session session(plant::thesis_pair(), 0.0), untouched(plant::thesis_pair(), 0.0);
     for (Session* each : {&session, &untouched}) {
