@@ -122,7 +122,10 @@ class Loop {
     missed_in_a_row_ = late_s > plan_.rig.tick_s ? missed_in_a_row_ + 1 : 0;
     if (missed_in_a_row_ > 0) ++recorded_.missed_ticks;
     if (missed_in_a_row_ > plan_.most_missed_ticks)
-      throw Stop(fmt::format("watchdog: {} ticks in a row were missed, up to tick {}", missed_in_a_row_, k));
+      throw Stop(
+          fmt::format("watchdog: {} ticks of {:g} ms in a row were missed, up to tick {}; the "
+                      "rig's tick may be longer, the machine less busy, or --most-missed larger",
+                      missed_in_a_row_, 1e3 * plan_.rig.tick_s, k));
     return late_s;
   }
 

@@ -1,6 +1,7 @@
 // The verb `control`: the controller of a scenario drives a bench in real time, and what happens is recorded
 // as a data set.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -274,7 +275,10 @@ int show(const ControlOptions& options, const Scenario& scenario, const bench::R
 /// Drives the device, and records: rows as they come, all as a data set at the end.
 int on_bench(const ControlOptions& options, const Scenario& scenario, const run::Briefing& briefing,
              std::unique_ptr<controllers::Controller> controller, bench::LoopPlan plan) {
-  Job job(options, "control " + options.scenario, scenario.name + "-control", scenario.inputs);
+  // No recording replaces another: a folder of results is replaced by one of the same words only.
+  const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+  Job job(options, fmt::format("control {}, {}", options.scenario, now.time_since_epoch().count()),
+          scenario.name + "-control", scenario.inputs);
   const controllers::Knowledge& known = briefing.knowledge.front();
   output::Unfinished rows(job.where(), "bench.csv", head_of(scenario), say);
   describe(rows, scenario);

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <ranges>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -97,15 +98,23 @@ bool is_of_another_valve(const Moved& m) {
 
 /// Numbers further off than they are stated to be; empty, or sentences and a space.
 std::string exceeded_in_words(const Diagnosis& d) {
-  std::string text;
-  for (const Moved& m : d.recalibrated) {
-    if (!m.exceeds()) continue;
-    const double deviation = std::abs((m.fitted.value - m.nominal) / m.deviations);
-    text += fmt::format(
-        "The ± of {}, {:.2g}{}, is exceeded: it is off by {:.1f} times that; measure it, or ask "
-        "where the value comes from. ",
-        m.fitted.name, deviation, m.fitted.unit == "1" ? "" : " " + m.fitted.unit, std::abs(m.deviations));
+  std::vector<const Moved*> off;
+  for (const Moved& m : d.recalibrated)
+    if (m.exceeds()) off.push_back(&m);
+  std::ranges::sort(off, std::greater{}, [](const Moved* m) { return std::abs(m->deviations); });
+  constexpr std::size_t most = 3;  // the table below has all
+  std::vector<std::string> said;
+  for (const Moved* m : off | std::views::take(most)) {
+    const double deviation = std::abs((m->fitted.value - m->nominal) / m->deviations);
+    said.push_back(fmt::format("{} (by {:.1f} times its ± of {:.2g}{})", m->fitted.name,
+                               std::abs(m->deviations), deviation,
+                               m->fitted.unit == "1" ? "" : " " + m->fitted.unit));
   }
+  if (off.size() > most) said.push_back(fmt::format("{} more", off.size() - most));
+  std::string text;
+  if (!said.empty())
+    text = fmt::format("Further off than the rig file says: {}. Measure, or ask where the value{} from. ",
+                       fmt::join(said, ", "), said.size() == 1 ? " comes" : "s come");
   if (std::ranges::any_of(d.recalibrated, is_of_another_valve)) text += "Not credible: is valve.kind right? ";
   if (d.contradicts_sheet) text += "So far off that something else may be missing in their place. ";
   return text;

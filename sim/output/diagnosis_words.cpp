@@ -171,7 +171,8 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
     case diagnose::Verdict::recalibrate:
       return "The rig needs other numbers, not another effect";
     case diagnose::Verdict::missing_effect:
-      return "Missing: " + listed(found) + (diagnosis.residual_law.empty() ? "" : ", and something else");
+      return "Missing: " + listed(found) + (diagnosis.residual_law.empty() ? "" : ", and something else") +
+             (diagnosis.contradicts_sheet ? ", if the rig file's ± are wrong" : "");
     case diagnose::Verdict::unknown_effect:
       return "Something outside the catalogue is missing";
     case diagnose::Verdict::cannot_tell:

@@ -73,6 +73,10 @@ TEST(Control, ASimulatedBenchLeavesADataSetThatReplays) {
             document.at("late_ms").at("median").get<double>());
   EXPECT_EQ(mckibben("check out/b-control/dataset.yaml", scratch).status, 0);
   EXPECT_EQ(mckibben("replay out/b-control", scratch).status, 0);
+
+  const std::string recorded = read_text(scratch / "out/b-control/bench.csv");
+  ASSERT_EQ(mckibben("control b.yaml --most-missed 1000", scratch).status, 0);
+  EXPECT_EQ(read_text(scratch / "out/b-control.old-1/bench.csv"), recorded);
 }
 
 TEST(Control, LeavesOutNoEffectOfItsRig) {
