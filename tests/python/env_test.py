@@ -69,6 +69,11 @@ class Env(unittest.TestCase):
                 env.step(no_action)
         with self.assertRaisesRegex(ValueError, "the lightest and the heaviest"):
             mckibben.Env(loads_kg=(5.0,))
+        for key, value in {"rig": [], "target": [], "loads_kg": 11.0, "duration_s": "6 s"}.items():
+            with self.assertRaisesRegex(ValueError, key):
+                mckibben.Env(**{key: value})
+        with self.assertRaisesRegex(ValueError, "'loadkg' is unknown; there are load_kg"):
+            mckibben.Env().reset(options={"loadkg": 1.0})
         self.assertFalse(env.step(env.action_space.sample())[3])
         self.assertTrue(env.step([5.0])[3])
         with self.assertRaises(RuntimeError):
@@ -245,14 +250,18 @@ class VectorEnv(unittest.TestCase):
         with self.assertRaises(ValueError):
             envs.reset(seed=[1, 2, 3])
         envs.reset(seed=1)
-        for bad in ([0.0], [0.0, float("nan")], [0.0] * 3):
-            with self.assertRaises(ValueError):
+        for bad in ([0.0], [0.0, float("nan")], [0.0] * 3, [[0.0, 0.0]]):
+            with self.assertRaisesRegex(ValueError, r"of shape \(2, 1\)"):
                 envs.step(bad)
         self.assertLess(len(repr(mckibben.VectorEnv(64).action_space)), 60)
-        with self.assertRaises(ValueError):
-            mckibben.VectorEnv(0)
-        with self.assertRaises(ValueError):
+        for many in (0, 2.5):
+            with self.assertRaisesRegex(ValueError, "num_envs"):
+                mckibben.VectorEnv(many)
+        with self.assertRaisesRegex(ValueError, "none of NEXT_STEP, SAME_STEP, DISABLED"):
             mckibben.VectorEnv(1, autoreset_mode="Sometimes")
+        for mode in mckibben.AutoresetMode:
+            for named in (mode.name, mode.value, mode):
+                self.assertEqual(mckibben.VectorEnv(1, autoreset_mode=named).autoreset_mode, mode)
 
 
 main()

@@ -4,6 +4,7 @@ Gymnasium is not needed. Where it is installed, Env and VectorEnv are its enviro
 TrackDrawn-v0, whose rigs and targets are drawn.
 """
 import math
+import numbers
 
 import numpy
 
@@ -34,20 +35,35 @@ def _one_of(several, random):
     return several
 
 
+def _mode(given):
+    """An AutoresetMode by itself, its name or its value."""
+    for mode in AutoresetMode:
+        if getattr(given, "value", given) in (mode.name, mode.value):
+            return mode
+    raise ValueError(f"autoreset_mode: {given!r} is none of {', '.join(mode.name for mode in AutoresetMode)}")
+
+
 class _Task:
     """What episodes have in common, and what is drawn for each."""
     TARGET = {"kind": "sine", "mean": 0.1, "amplitude": 0.05, "period": "4 s"}
     MOST, FASTEST = 0.5, 20.0  # contraction ratio [1] that no braid reaches, its speed [1/s]
 
     def __init__(self, rig, loads_kg, target, duration_s, jitter):
+        for name, value in {"rig": rig, "target": target}.items():
+            if isinstance(value, (list, tuple)) and not value:
+                raise ValueError(f"{name}: a list of one at least, for each episode to draw from")
         if isinstance(rig, (list, tuple)):
             self.rig = [self.made(one) for one in rig]
         else:
             self.rig = rig if callable(rig) else self.made(rig)
-        if len(loads_kg) != 2:
-            raise ValueError("loads_kg: the lightest and the heaviest load")
+        if numpy.shape(loads_kg) != (2,):
+            raise ValueError("loads_kg: the lightest and the heaviest load, as (8.0, 23.0)")
+        for name, value in {"duration_s": duration_s, "jitter": jitter}.items():
+            if not isinstance(value, numbers.Real):
+                raise ValueError(f"{name} = {value!r} is no number")
         self.loads_kg = tuple(sorted(map(float, loads_kg)))
-        self.target, self.duration_s, self.jitter = target or self.TARGET, float(duration_s), float(jitter)
+        self.target = self.TARGET if target is None else target
+        self.duration_s, self.jitter = float(duration_s), float(jitter)
         rigs = self.rig if isinstance(self.rig, list) else [] if callable(self.rig) else [self.rig]
         most = max((one.largest_contraction_ratio for one in rigs), default=self.MOST)
         self.action_space = Box(numpy.float32([-1.0]), numpy.float32([1.0]))
@@ -69,6 +85,9 @@ class _Task:
 
     def draw(self, random, options):
         """Rig, load [kg] and target of an episode."""
+        if unknown := set(options) - {"load_kg"}:
+            raise ValueError(f"options: {', '.join(map(repr, sorted(unknown)))} is unknown; there are load_kg and, of a "
+                             "VectorEnv, reset_mask")
         rig = _one_of(self.rig, random)
         if callable(self.rig):
             rig = self.made(rig)
@@ -129,7 +148,7 @@ class Env(Base):
     observation  shape (4,): contraction ratio as the encoder counts it, its speed by these counts over the last
                  tick [1/s], the target at this tick [1], the command of the last tick (-1 to 1)
     reward       minus the absolute error of the counted contraction ratio, in per cent
-    truncated    at the end of `duration`; terminated where the simulation cannot go on
+    truncated    at the end of `duration`, after one step less than it has ticks; terminated where the simulation cannot go on
 
     >>> import mckibben
     >>> env = mckibben.Env(loads_kg=(11.0, 23.0), duration_s=1.2)
@@ -146,7 +165,7 @@ class Env(Base):
 
     def __init__(self, rig="thesis", loads_kg=(8.0, 23.0), target=None, duration_s=12.0, jitter=0.0):
         """`rig`, `target` (as in scenario files): one, a list of which each episode draws one, or a function that makes
-        one of a numpy.random.Generator. `loads_kg`: between these each episode draws its load. `jitter`: root mean
+        one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s. `loads_kg`: between these each episode draws its load. `jitter`: root mean
         square of what shakes the reading, as a contraction ratio [1]. Raises InputError, ValueError."""
         self.task = _Task(rig, loads_kg, target, duration_s, jitter)
         self.action_space, self.observation_space = self.task.action_space, self.task.observation_space
@@ -186,10 +205,10 @@ class Env(Base):
             raise RuntimeError("reset comes before the first step")
         if self.episode.over():
             raise RuntimeError("the episode has ended; reset begins another one")
-        values = numpy.asarray(action, dtype=float).reshape(-1)
-        if values.size != 1 or not math.isfinite(values[0]):
-            raise ValueError("an action is one finite number")
-        command = self.episode.command(float(values[0]))
+        values = numpy.asarray(action, dtype=float)
+        if values.size != 1 or not math.isfinite(values.flat[0]):
+            raise ValueError(f"an action is one finite number, of shape (1,); this has the shape {values.shape}")
+        command = self.episode.command(float(values.flat[0]))
         unit = self.episode.rig.command_unit
         info = {"current_mA" if unit == "mA" else f"command_{unit}": command}
         terminated = False
@@ -228,10 +247,10 @@ class VectorEnv(VectorBase):
                  autoreset_mode=AutoresetMode.NEXT_STEP, threads=1):
         """As Env; rigs of one batch have the same tick and are commanded in the same unit."""
         self.task = _Task(rig, loads_kg, target, duration_s, jitter)
+        if not isinstance(num_envs, numbers.Integral) or num_envs < 1:
+            raise ValueError(f"num_envs = {num_envs!r}: a whole number, one at least")
         self.num_envs, self.threads = int(num_envs), threads
-        if self.num_envs < 1:
-            raise ValueError("num_envs: one at least")
-        self.autoreset_mode = AutoresetMode(getattr(autoreset_mode, "value", autoreset_mode))
+        self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
         self.single_action_space, self.single_observation_space = self.task.action_space, self.task.observation_space
         self.action_space = self._many(self.single_action_space)
@@ -274,9 +293,11 @@ class VectorEnv(VectorBase):
             raise RuntimeError("reset comes before the first step")
         if self.autoreset_mode == AutoresetMode.DISABLED and self.ended.any():
             raise RuntimeError("an episode has ended; reset(options={'reset_mask': ...}) begins another one")
-        actions = numpy.asarray(actions, dtype=float).reshape(-1)
-        if actions.size != self.num_envs or not numpy.isfinite(actions).all():
-            raise ValueError("actions are a finite number for each member")
+        actions = numpy.asarray(actions, dtype=float)
+        if actions.shape not in ((self.num_envs, 1), (self.num_envs,)) or not numpy.isfinite(actions).all():
+            raise ValueError(f"actions are a finite number for each member, of shape ({self.num_envs}, 1); these have "
+                             f"the shape {actions.shape}")
+        actions = actions.reshape(-1)
         waiting, infos = self.ended.copy(), {}
         self.batch.step([one.command(action) for one, action in zip(self.episodes, actions)])
         rewards = numpy.zeros(self.num_envs)
