@@ -183,8 +183,6 @@ class Columns {
       findings_.push_back(std::move(*found));
     else if (auto other = other_zero(rows, map_["contraction"], data_.runs.front().ratio_per_unit))
       findings_.push_back(std::move(*other));
-    else if (auto beyond = beyond_the_braid(rows, plant::Braid(data_.rig.muscle).largest_contraction_ratio()))
-      findings_.push_back(std::move(*beyond));
   }
   double moving() const {
     return of_columns.moving_counts * plant::count_height_m(data_.rig) / data_.rig.muscle.rest_length_m;

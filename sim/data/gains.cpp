@@ -1,5 +1,4 @@
 // See the header.
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -68,19 +67,6 @@ std::optional<Finding> other_zero(const Compared& contraction, ColumnPlace place
       .message = fmt::format("contraction is {:.3g} {} than pressure and load say, everywhere: is its "
                              "zero what it reads at rest length? About columns: {{{}}}",
                              std::abs(off), off > 0.0 ? "more" : "less", line_of("contraction", place)),
-      .severity = Severity::doubtful};
-}
-
-std::optional<Finding> beyond_the_braid(const Compared& contraction, double largest_ratio) {
-  const double read = *std::ranges::max_element(contraction.measured);
-  if (read <= of_gains.beyond_braid * largest_ratio) return std::nullopt;
-  return Finding{
-      .quantity = "contraction",
-      .runs = contraction.runs,
-      .message = fmt::format("contraction reaches {:.3g}, and this muscle pulls up to {:.3g} only, at any "
-                             "pressure: are its braid_angle and end_correction, the rest_length and the "
-                             "zero of the reading right?",
-                             read, largest_ratio),
       .severity = Severity::doubtful};
 }
 

@@ -35,9 +35,6 @@ std::optional<Finding> halved_or_doubled(const Compared& contraction, domain::Co
 std::optional<Finding> other_zero(const Compared& contraction, domain::ColumnPlace place,
                                   double ratio_per_unit);
 
-/// A contraction at which the rig's braid pulls no more, under whatever pressure.
-std::optional<Finding> beyond_the_braid(const Compared& contraction, double largest_ratio);
-
 /// A gauge that goes along with the model and shows many times, or a part of, what it would do.
 std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, domain::ColumnPlace place);
 

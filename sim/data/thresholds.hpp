@@ -40,9 +40,8 @@ struct ColumnThresholds {
   double gauge_bar = 0.3;  ///< that the model's pressure must move to judge a gauge's unit
   double least_gauge_slope = 0.5, most_gauge_slope = 2.0;  ///< of a gauge in the right unit
   double halved = 1.12, halved_share = 0.005;  ///< of a factor 2; left of the sum of squares with it
-  double other_zero = 0.3;     ///< of the model's range: an offset of a contraction, if little else is left
-  double beyond_braid = 1.05;  ///< times the contraction at which a braid pulls no more
-  double atmosphere = 0.2;     ///< relative: an offset so near to it is it
+  double other_zero = 0.3;  ///< of the model's range: an offset of a contraction, if little else is left
+  double atmosphere = 0.2;  ///< relative: an offset so near to it is it
 };
 
 /// Loads, weighed by the muscle.

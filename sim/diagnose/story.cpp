@@ -3,7 +3,6 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
-#include <ranges>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -102,19 +101,16 @@ std::string exceeded_in_words(const Diagnosis& d) {
   for (const Moved& m : d.recalibrated)
     if (m.exceeds()) off.push_back(&m);
   std::ranges::sort(off, std::greater{}, [](const Moved* m) { return std::abs(m->deviations); });
-  constexpr std::size_t most = 3;  // the table below has all
-  std::vector<std::string> said;
-  for (const Moved* m : off | std::views::take(most)) {
-    const double deviation = std::abs((m->fitted.value - m->nominal) / m->deviations);
-    said.push_back(fmt::format("{} (by {:.1f} times its ± of {:.2g}{})", m->fitted.name,
-                               std::abs(m->deviations), deviation,
-                               m->fitted.unit == "1" ? "" : " " + m->fitted.unit));
-  }
-  if (off.size() > most) said.push_back(fmt::format("{} more", off.size() - most));
   std::string text;
-  if (!said.empty())
-    text = fmt::format("Further off than the rig file says: {}. Measure, or ask where the value{} from. ",
-                       fmt::join(said, ", "), said.size() == 1 ? " comes" : "s come");
+  if (!off.empty()) {  // the table has all
+    const Moved& m = *off.front();
+    const double deviation = std::abs((m.fitted.value - m.nominal) / m.deviations);
+    text = fmt::format(
+        "Further off than the rig file says: {}, by {:.1f} times its ± of {:.2g}{}{}. Measure, "
+        "or ask where the values come from. ",
+        m.fitted.name, std::abs(m.deviations), deviation, m.fitted.unit == "1" ? "" : " " + m.fitted.unit,
+        off.size() == 1 ? "" : fmt::format(", and {} more", off.size() - 1));
+  }
   if (std::ranges::any_of(d.recalibrated, is_of_another_valve)) text += "Not credible: is valve.kind right? ";
   if (d.contradicts_sheet) text += "So far off that something else may be missing in their place. ";
   return text;

@@ -79,7 +79,7 @@ TEST(Live, RefusesWhoeverLacksTheTokenOrComesFromElsewhere) {
 TEST(Live, NonsenseIsRefusedAndARecordingOutlivesCtrlC) {
   const Scratch scratch;
   const Said said = with_page(scratch,
-                              "expect(do(do='command', to=99), 'to = 99: must be from 0 to 20 mA')\n"
+                              "expect(do(do='command', to=99), 'current = 99 mA: must be from 0 to 20 mA')\n"
                               "expect(do(do='load', kg='much'), 'kg = \"much\": must be a number')\n"
                               "expect(ask(f'/{token}/do', 'no json')[0], 400)\n"
                               "expect(do(do='record', from_rest=True), '')\n"

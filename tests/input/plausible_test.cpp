@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <sim/data/gains.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/diagnostics.hpp>
@@ -144,16 +143,6 @@ TEST_F(PlausibleData, PressuresInOtherUnitsProposeOneThatIsRead) {
 TEST_F(PlausibleData, OneFileUnderTwoLoads) {
   EXPECT_TRUE(holds(said(find(good, "ms", "bar", "a.csv")),
                     "doubtful: holds the same rows as run a, under another load (5 and 9 kg)"));
-}
-
-TEST(ContractionsBeyondTheBraid, AreAskedAbout) {
-  Compared rows;
-  rows.measured = {0.02, 0.29, 0.1};
-  EXPECT_FALSE(beyond_the_braid(rows, 0.283)) << "as near as its sheet's ± reach";
-  rows.measured[1] = 0.33;
-  const auto found = beyond_the_braid(rows, 0.283);
-  ASSERT_TRUE(found);
-  EXPECT_TRUE(holds(found->message, "contraction reaches 0.33, ", "up to 0.283 only"));
 }
 
 TEST_F(PlausibleData, StepsCoarserThanTheSensor) {

@@ -19,8 +19,7 @@ namespace {
 class Asked : public ::testing::Test {
  protected:
   /// Of a table of 200 rows: `row(k)` is a line.
-  template <class Row>
-  Recognised of(const std::string& head, const Row& row, const std::string& name = "5kg.csv",
+  Recognised of(const std::string& head, const auto& row, const std::string& name = "5kg.csv",
                 const KnownRig& rig = {}) const {
     std::string text = head;
     for (int k = 0; k < 200; ++k) text += row(k) + "\n";
@@ -164,11 +163,9 @@ TEST_F(Asked, TheZeroOfWhatOtherLoadsStretch) {
     }
     return column(recognise(files, true, {}), "contraction").zero.value();
   };
-  EXPECT_FALSE(zero(0.0, 0.0).open() && holds(zero(0.0, 0.0).reason, "differs"));
-  EXPECT_TRUE(zero(8.0, 0.0).open());
+  EXPECT_TRUE(lacks(zero(0.0, 0.0).reason, "differs"));
   EXPECT_TRUE(holds(zero(8.0, 0.0).reason, "differs between the tables, as loads do, by 8"));
   EXPECT_TRUE(holds(zero(0.0, 2.0).reason, "it still moves by"));
-  EXPECT_TRUE(lacks(zero(0.0, 2.0).reason, "differs between"));
 }
 
 TEST_F(Asked, AFactorInAHeadingAndTwoUnits) {

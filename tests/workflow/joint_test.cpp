@@ -74,14 +74,15 @@ TEST(NightlyJointDiagnosis, ATubeThatPushesIsNeverTheAnswer) {
   EXPECT_FALSE(carries(found.corrected, plant::BladderElasticity::name)) << found.because;
 }
 
-TEST(NightlyJointDiagnosis, RecalibratesFrictionOfBothMusclesAsOne) {
+TEST(NightlyJointDiagnosis, RecalibratesFrictionOfBothMuscles) {
   Rig truth = plant::thesis_pair();
   truth.friction.scale = std::get<plant::Pair>(truth.mechanics).opposite.friction.scale = 1.25;
   const Diagnosis found = diagnosis_of(of_a_joint(truth), 2);
   EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
   ASSERT_NE(moved(found, "friction.scale"), nullptr);
   EXPECT_NEAR(moved(found, "friction.scale")->fitted.value, 1.25, 0.05);
-  EXPECT_EQ(found.corrected.pair()->opposite.friction.scale, found.corrected.friction.scale);
+  // Each muscle may have a number of its own.
+  EXPECT_NEAR(found.corrected.pair()->opposite.friction.scale, 1.25, 0.05);
 }
 
 TEST(JointDiagnosis, NamesNothingWhereNothingIsMissing) {

@@ -16,7 +16,7 @@ TEST(Recalibrates, ANumberFarBeyondItsDataSheetBeforeItNamesAnEffect) {
   EXPECT_EQ(found.verdict, Verdict::recalibrate) << found.because;
   EXPECT_TRUE(found.effects.empty());
   EXPECT_NEAR(found.corrected.friction.scale, 1.46, 0.04);
-  EXPECT_TRUE(holds(found.because, "Further off than the rig file says: friction.scale (by 4."));
+  EXPECT_TRUE(holds(found.because, "Further off than the rig file says: friction.scale, by 4."));
   EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
   for (const Ranked& one : found.ranking) EXPECT_FALSE(one.outcome.starts_with("taken")) << one.name;
 }
