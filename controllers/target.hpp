@@ -234,7 +234,6 @@ using TargetOf = std::variant<StepsOf<Value>, RampsOf<Value>, MinimumJerkOf<Valu
                               TriangleOf<Value>, PointsOf<Value>>;
 
 using Move = MoveOf<Height>;
-using Glide = GlideOf<Height>;
 using Steps = StepsOf<Height>;
 using Ramps = RampsOf<Height>;
 using MinimumJerk = MinimumJerkOf<Height>;

@@ -48,32 +48,39 @@ struct ControlOptions : Options {
   bool dry_run = false, verbose = false;
 };
 
-/// Why a scenario is none that one controller can drive under one load, behind the key; empty if it is.
-std::string unfit(const Scenario& scenario) {
-  if (const std::string why = input::no_load(scenario.rig); !why.empty()) return "rig: " + why;
-  if (scenario.loads_kg.size() != 1) return "loads: one load hangs on a bench; name it alone";
-  if (scenario.controllers.size() != 1) return "controllers: one controller drives a bench; name it alone";
+/// Why a scenario is none that one controller can drive under one load, and the key to blame.
+struct Unfit {
+  std::string_view key;
+  std::string why;  ///< empty if it is one
+};
+
+Unfit unfit(const Scenario& scenario) {
+  if (std::string why = input::no_load(scenario.rig); !why.empty()) return {"rig", std::move(why)};
+  if (scenario.loads_kg.size() != 1) return {"loads", "one load hangs on a bench; name it alone"};
+  if (scenario.controllers.size() != 1)
+    return {"controllers", "one controller drives a bench; name it alone"};
   controllers::Settings only = scenario.controllers.front();
   if (const auto* terms = controllers::part_of<controllers::PidForm>(only);
       terms != nullptr && terms->needs_tuning())
-    return fmt::format(
-        "controllers: {} has no gains; `run` of this file tunes and prints them: write them here",
-        name_of(only));
+    return {"controllers",
+            fmt::format("{} has no gains; `run` of this file tunes and prints them: write them here",
+                        name_of(only))};
   if (const auto* plans = controllers::part_of<controllers::ModelTerms>(only);
       plans != nullptr && !plans->assumed_load_kg)
-    return "controllers: to find its load from the weighing takes longer than a tick; write it down as "
-           "assumed_load";
-  return "";
+    return {"controllers",
+            "to find its load from the weighing takes longer than a tick; write it down as assumed_load"};
+  return {};
 }
 
 /// Says at its key why it is unfit; of a list with one entry at that. Throws BadInput.
-void refuse_at_key(const std::string& path, const std::string& why) {
+void refuse(const std::string& path, const Unfit& unfit) {
   const input::YamlFile file = input::load_yaml(path);
-  const input::Node* node = file.root.find(why.substr(0, why.find(':')));
+  const input::Node* node = file.root.find(unfit.key);
   if (node != nullptr && node->children.size() == 1 && node->kind == input::Node::Kind::list)
     node = &node->children.front();
   input::Problems problems;
-  problems.error(file.source, node != nullptr ? node->place : file.root.place, why);
+  problems.error(file.source, node != nullptr ? node->place : file.root.place,
+                 fmt::format("{}: {}", unfit.key, unfit.why));
   problems.raise();
 }
 
@@ -88,8 +95,7 @@ std::string believed_rig(const std::string& scenario) {
   if (!only_effects) return "";
   const input::Node* base = rig->find("base");
   const std::string name = base != nullptr ? base->text : "thesis";
-  if (std::ranges::find(input::shipped_rigs(), name) != input::shipped_rigs().end()) return name;
-  return (file.source.folder() / name).lexically_normal().string();
+  return input::is_shipped(name) ? name : (file.source.folder() / name).lexically_normal().string();
 }
 
 /// Why the options do not go together; empty if they do.
@@ -238,7 +244,7 @@ std::string document_of(const Scenario& scenario, const ControlOptions& options,
   return document.dump(2) + "\n";
 }
 
-/// "4 to 12.31 mA, one every 12 ms, the fastest change 20 mA/s".
+/// "500 commands of 4 to 12.31 mA, one every 12 ms, the largest change 0.24 mA".
 std::string sent(const Scenario& scenario, const bench::Recorded& recorded) {
   if (recorded.rows.empty()) return "";
   double lowest = recorded.rows.front().current_mA, highest = lowest, fastest = 0.0;
@@ -324,7 +330,7 @@ int control(const ControlOptions& options) {
   std::vector<input::Problem> warnings;
   const Scenario scenario = input::read_scenario(std::filesystem::path(options.scenario), warnings);
   for (const auto& warning : warnings) say(input::to_text(warning));
-  if (const std::string why = unfit(scenario); !why.empty()) refuse_at_key(options.scenario, why);
+  if (const Unfit found = unfit(scenario); !found.why.empty()) refuse(options.scenario, found);
   if (options.wiring.full_scale_V && scenario.rig.command_unit() == plant::CommandUnit::V) {
     say("--full-scale is of a stage behind the output; this rig's valve takes its volts as they are");
     return usage_error;

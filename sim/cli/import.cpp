@@ -76,8 +76,7 @@ std::string name_of(const std::vector<std::string>& files) {
 
 /// A rig as a file in `folder` names it: by its own name, or by where it is from there.
 std::string rig_from(const fs::path& folder, const std::string& rig) {
-  for (const auto shipped : input::shipped_rigs())
-    if (rig == shipped) return rig;
+  if (input::is_shipped(rig)) return rig;
   const std::string path = fs::weakly_canonical(rig).lexically_relative(folder).generic_string();
   return path.find('/') == std::string::npos ? "./" + path : path;
 }

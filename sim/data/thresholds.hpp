@@ -92,9 +92,7 @@ struct ReadingThresholds {
   double gauge_bar = 0.3;            ///< the model's pressure moves so far: a gauge must follow
   double gauge_slope = 0.1;          ///< of the gauge over the model, at least
   double most_masked = 0.3;          ///< of a run: more, and too little of it is left
-  double most_contradicted =
-      1.0 / 3.0;            ///< of the runs, whose labels contradict the others: more cannot tell
-  double same_load = 0.01;  ///< relative: one load
+  double same_load = 0.01;           ///< relative: one load
 };
 
 /// What is asked about before anything is simulated.

@@ -97,19 +97,17 @@ bool is_of_another_valve(const Moved& m) {
 
 /// Numbers further off than they are stated to be; empty, or sentences and a space.
 std::string exceeded_in_words(const Diagnosis& d) {
-  std::vector<const Moved*> off;
-  for (const Moved& m : d.recalibrated)
-    if (m.exceeds()) off.push_back(&m);
-  std::ranges::sort(off, std::greater{}, [](const Moved* m) { return std::abs(m->deviations); });
+  const auto deviations = [](const Moved& m) { return m.exceeds() ? std::abs(m.deviations) : 0.0; };
+  const auto off = std::ranges::count_if(d.recalibrated, &Moved::exceeds);
   std::string text;
-  if (!off.empty()) {  // the table has all
-    const Moved& m = *off.front();
+  if (off > 0) {  // the table has all
+    const Moved& m = *std::ranges::max_element(d.recalibrated, {}, deviations);
     const double deviation = std::abs((m.fitted.value - m.nominal) / m.deviations);
     text = fmt::format(
         "Further off than the rig file says: {}, by {:.1f} times its ± of {:.2g}{}{}. Measure, "
         "or ask where the values come from. ",
         m.fitted.name, std::abs(m.deviations), deviation, m.fitted.unit == "1" ? "" : " " + m.fitted.unit,
-        off.size() == 1 ? "" : fmt::format(", and {} more", off.size() - 1));
+        off == 1 ? "" : fmt::format(", and {} more", off - 1));
   }
   if (std::ranges::any_of(d.recalibrated, is_of_another_valve)) text += "Not credible: is valve.kind right? ";
   if (d.contradicts_sheet) text += "So far off that something else may be missing in their place. ";

@@ -155,7 +155,6 @@ struct Dataset {
   std::vector<std::string> remarks;  ///< how tables were read, where it could be done in another way
 
   double row_s() const { return rows_of_stamps ? rows_of_stamps->row_s : rig.tick_s; }
-  double readings_in_a_row() const { return rows_of_stamps ? rows_of_stamps->readings : 1.0; }
   double rows_begin_s() const { return rows_of_stamps ? recorded.skip_s : 0.0; }
   Judged judged() const {
     if (!runs.empty() && std::ranges::all_of(runs, &Run::reads_only_pressures)) return Judged::pressure;

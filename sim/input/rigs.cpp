@@ -27,10 +27,6 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 7> shipped{
     "thesis", "thesis_pair", "festo_dmsp_5", "festo_dmsp_10", "festo_dmsp_20", "festo_dmsp_40", "home_made"};
 
-bool is_shipped(std::string_view name) {
-  return std::find(shipped.begin(), shipped.end(), name) != shipped.end();
-}
-
 bool looks_like_path(std::string_view text) {
   return text.find_first_of("/.") != std::string_view::npos;
 }
@@ -223,6 +219,16 @@ void read_changes(const Source& source, const Node& map, Rig& into, Problems& pr
 
 std::span<const std::string_view> shipped_rigs() {
   return shipped;
+}
+
+bool is_shipped(std::string_view name) {
+  return std::ranges::find(shipped, name) != shipped.end();
+}
+
+std::string shipped_rig_where(const std::function<bool(const Rig&)>& holds) {
+  for (const std::string_view name : shipped)
+    if (holds(with_stops(shipped_rig(name)))) return std::string(name);
+  return "";
 }
 
 void read_named(const Source& source, const Node& node, Rig& into, Problems& problems) {

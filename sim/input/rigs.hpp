@@ -2,6 +2,7 @@
 // A rig file begins with `schema: mckibben-rig/1`, names its `base` (thesis if left out) and changes fields.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ inline constexpr std::string_view rig_schema = "mckibben-rig/1";
 
 /// Names of the rigs that come with the program.
 std::span<const std::string_view> shipped_rigs();
+bool is_shipped(std::string_view name);
+/// The name of the first of them of which `holds` is true; empty if there is none.
+std::string shipped_rig_where(const std::function<bool(const Rig&)>& holds);
 
 /// The rig of that name, or of the file at that path; the files read are added to `inputs`.
 /// Throws MissingInput, BadInput.

@@ -131,10 +131,7 @@ TwoTables heads_of(const plant::Rig& rig) {
 /// The shipped rig's name, if this is one; otherwise empty.
 std::string shipped_name(const plant::Rig& rig) {
   const Json wanted = input::rig_json(rig);
-  std::vector<domain::InputFile> none;
-  for (const auto name : input::shipped_rigs())
-    if (input::rig_json(input::read_rig(std::string(name), none)) == wanted) return std::string(name);
-  return "";
+  return input::shipped_rig_where([&](const plant::Rig& one) { return input::rig_json(one) == wanted; });
 }
 
 }  // namespace

@@ -34,16 +34,12 @@ Json changes(const Json& from, const Json& to) {
 /// The shipped rig whose effects the rig has, as a base; empty if it has none. What stands over a base is
 /// found, what is in it was known: a campaign's owner knows these effects (campaign_file.cpp).
 std::string base_with_effects(const plant::Rig& rig, const plant::Rig& corrected) {
-  const Json effects = input::to_json(rig.effects), now = input::to_json(corrected.effects);
-  std::vector<domain::InputFile> none;
-  for (const auto name : input::shipped_rigs()) {
-    const Json base = input::to_json(input::read_rig(std::string(name), none).effects);
-    const auto still_there = [&](const auto& one) { return now.contains(one.key()); };
-    const auto all = base.items();
-    if (!base.empty() && base == effects && std::all_of(all.begin(), all.end(), still_there))
-      return std::string(name);
-  }
-  return "";
+  const Json known = input::to_json(rig.effects), now = input::to_json(corrected.effects);
+  if (known.empty()) return "";
+  for (const auto& [key, effect] : known.items())
+    if (!now.contains(key)) return "";
+  return input::shipped_rig_where(
+      [&](const plant::Rig& one) { return input::to_json(one.effects) == known; });
 }
 
 /// The corrected rig as it stands in a file, without schema.

@@ -72,8 +72,13 @@ class Env(unittest.TestCase):
         for key, value in {"rig": [], "target": [], "loads_kg": 11.0, "duration_s": "6 s"}.items():
             with self.assertRaisesRegex(ValueError, key):
                 mckibben.Env(**{key: value})
-        with self.assertRaisesRegex(ValueError, "'loadkg' is unknown; there are load_kg"):
-            mckibben.Env().reset(options={"loadkg": 1.0})
+        for make in (mckibben.Env, mckibben.VectorEnv):
+            refused, other = make(), make()
+            for each in (refused, other):
+                each.reset(seed=3)
+            with self.assertRaisesRegex(ValueError, "'loadkg' is unknown; there are load_kg"):
+                refused.reset(seed=9, options={"loadkg": 1.0})
+            self.assertEqual(refused.reset()[1]["load_kg"], other.reset()[1]["load_kg"], "its seed is not taken")
         self.assertFalse(env.step(env.action_space.sample())[3])
         self.assertTrue(env.step([5.0])[3])
         with self.assertRaises(RuntimeError):

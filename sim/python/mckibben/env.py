@@ -83,11 +83,15 @@ class _Task:
                              "Step it with Ride, or run a Scenario")
         return rig
 
+    @staticmethod
+    def check(options):
+        """Of a reset, before it changes anything; without what is of a VectorEnv."""
+        if unknown := set(options) - {"load_kg"}:
+            raise ValueError(f"options: {', '.join(sorted(map(repr, unknown)))} is unknown; there are load_kg and, of a "
+                             "VectorEnv, reset_mask")
+
     def draw(self, random, options):
         """Rig, load [kg] and target of an episode."""
-        if unknown := set(options) - {"load_kg"}:
-            raise ValueError(f"options: {', '.join(map(repr, sorted(unknown)))} is unknown; there are load_kg and, of a "
-                             "VectorEnv, reset_mask")
         rig = _one_of(self.rig, random)
         if callable(self.rig):
             rig = self.made(rig)
@@ -148,7 +152,8 @@ class Env(Base):
     observation  shape (4,): contraction ratio as the encoder counts it, its speed by these counts over the last
                  tick [1/s], the target at this tick [1], the command of the last tick (-1 to 1)
     reward       minus the absolute error of the counted contraction ratio, in per cent
-    truncated    at the end of `duration`, after one step less than it has ticks; terminated where the simulation cannot go on
+    truncated    at the end of `duration`, after one step less than it has ticks; terminated where the simulation
+                 cannot go on
 
     >>> import mckibben
     >>> env = mckibben.Env(loads_kg=(11.0, 23.0), duration_s=1.2)
@@ -165,8 +170,9 @@ class Env(Base):
 
     def __init__(self, rig="thesis", loads_kg=(8.0, 23.0), target=None, duration_s=12.0, jitter=0.0):
         """`rig`, `target` (as in scenario files): one, a list of which each episode draws one, or a function that makes
-        one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s. `loads_kg`: between these each episode draws its load. `jitter`: root mean
-        square of what shakes the reading, as a contraction ratio [1]. Raises InputError, ValueError."""
+        one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s. `loads_kg`: between these
+        each episode draws its load. `jitter`: root mean square of what shakes the reading, as a contraction ratio [1].
+        Raises InputError, ValueError."""
         self.task = _Task(rig, loads_kg, target, duration_s, jitter)
         self.action_space, self.observation_space = self.task.action_space, self.task.observation_space
         self.loads_kg = self.task.loads_kg
@@ -193,8 +199,10 @@ class Env(Base):
     def reset(self, *, seed=None, options=None):
         """A new episode: (observation, info). `seed` decides its rig, target, load and jitter; `options` may say
         {"load_kg": ...}. The same seed, the same episode."""
+        options = options or {}
+        self.task.check(options)
         super().reset(seed=seed)
-        self.episode = _Episode(self.task, self.np_random, options or {})
+        self.episode = _Episode(self.task, self.np_random, options)
         self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
         self.rows = []
         return self.episode.begin(self.ride.reading.contraction_ratio), dict(self.episode.info)
@@ -207,7 +215,7 @@ class Env(Base):
             raise RuntimeError("the episode has ended; reset begins another one")
         values = numpy.asarray(action, dtype=float)
         if values.size != 1 or not math.isfinite(values.flat[0]):
-            raise ValueError(f"an action is one finite number, of shape (1,); this has the shape {values.shape}")
+            raise ValueError(f"an action is one finite number, of shape (1,), not {action!r}")
         command = self.episode.command(float(values.flat[0]))
         unit = self.episode.rig.command_unit
         info = {"current_mA" if unit == "mA" else f"command_{unit}": command}
@@ -266,9 +274,10 @@ class VectorEnv(VectorBase):
     def reset(self, *, seed=None, options=None):
         """New episodes: (observations, infos). A seed is that of the first member, the next one has seed + 1; or one
         for each. With options {"reset_mask": booleans} these alone begin again, and the others stay where they are."""
-        super().reset(seed=seed if isinstance(seed, int) else None)
         options = dict(options or {})
         mask = options.pop("reset_mask", None)
+        self.task.check(options)
+        super().reset(seed=seed if isinstance(seed, int) else None)
         if mask is not None:
             mask = numpy.asarray(mask)
             if mask.shape != (self.num_envs,) or mask.dtype != bool or not mask.any():
