@@ -106,7 +106,17 @@ class ErkBatch final : public Batch {
   }
 
   Counters counters(std::size_t slot) const override { return groups_[slot].counters; }
-  Pace pace(std::size_t slot) const override { return groups_[slot].pace; }
+  Pace pace(std::size_t slot) const override {
+    const Group& group = groups_[slot];
+    Pace pace = group.pace;
+    pace.cost = group.counters.right_hand_sides - group.cost_before;
+    return pace;
+  }
+  void resume(std::size_t slot, const Pace& pace) override {
+    Group& group = groups_[slot];
+    group.pace = pace;
+    group.cost_before = group.counters.right_hand_sides - pace.cost;
+  }
   bool is_stiff(std::size_t slot) override {
     Group& group = groups_[slot];
     if (group.pace.ticks % window_ticks != 0) return false;

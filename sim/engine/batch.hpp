@@ -55,6 +55,8 @@ class Batch {
   /// Of a group, since it was submitted.
   virtual Counters counters(std::size_t slot) const = 0;
   virtual Pace pace(std::size_t slot) const = 0;
+  /// As an integrator resumes: of a group that has just been submitted.
+  virtual void resume(std::size_t slot, const Pace& pace) = 0;
   /// Whether it turned out stiff, as the automatic method decides; to be asked once at each instant.
   virtual bool is_stiff(std::size_t slot) = 0;
 };

@@ -76,15 +76,27 @@ void Batch::fill(const Next& next) {
   while (waiting_ && submit(waiting_)) waiting_ = next();
 }
 
-bool Batch::submit(const std::shared_ptr<BatchItem>& item) {
+bool Batch::submit(const std::shared_ptr<BatchItem>& item, const Carried& from) {
   std::array<const plant::Plant*, engine::Batch::width> plants{};
   const auto riders = item->riders();
   for (std::size_t i = 0; i < riders.size(); ++i) plants[i] = &riders[i].plant();
   const auto slot = lanes_->submit(std::span(plants).first(riders.size()));
   if (!slot) return false;
   slots_[*slot].item = item;
+  if (from.alone)
+    slots_[*slot].alone = std::make_unique<Alone>(riders, key_, &from.pace);
+  else
+    lanes_->resume(*slot, from.pace);
   go_on(*slot);
   return true;
+}
+
+std::optional<Carried> Batch::carried(const BatchItem& item) const {
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    const auto& [here, alone] = slots_[slot];
+    if (here.get() == &item) return Carried{alone ? alone->pace() : lanes_->pace(slot), alone != nullptr};
+  }
+  return std::nullopt;
 }
 
 void Batch::arrive(std::size_t slot, bool arrived, const Next& next) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,9 +60,19 @@ class Alone {
   /// As long as the item goes on. `holds`: it has held what acts until the next instant.
   void run(BatchItem& item, bool holds = false);
 
+  /// Of the first rig.
+  engine::Pace pace() const { return integrators_.front()->pace(); }
+
  private:
   std::vector<std::unique_ptr<engine::Integrator>> integrators_;
   engine::Counters before_;
+};
+
+/// How an item of a batch is carried, beside what its riders are: one that is submitted with it goes on to
+/// the same bits.
+struct Carried {
+  engine::Pace pace{};
+  bool alone = false;  ///< it was evicted
 };
 
 class Batch {
@@ -71,7 +82,9 @@ class Batch {
   Batch(BatchKey key, std::size_t lanes, bool resumable = false);
 
   /// False if there are too few free lanes.
-  bool submit(const std::shared_ptr<BatchItem>& item);
+  bool submit(const std::shared_ptr<BatchItem>& item, const Carried& from = {});
+  /// Of a resumable batch, between two runs; none: the item is not in it.
+  std::optional<Carried> carried(const BatchItem& item) const;
 
   /// Simulates all items, and those that `next` gives until it gives none any more (null). Throws what items
   /// throw.

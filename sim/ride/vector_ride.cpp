@@ -28,12 +28,12 @@ VectorRide::VectorRide(std::span<const Loaded> rigs, std::span<const solver::Set
   }
 }
 
-void VectorRide::require_as_many(std::span<const double> current_mA) const {
-  if (current_mA.size() != rigs()) throw std::invalid_argument("rigs and currents are not as many");
+void VectorRide::require_as_many(std::size_t given) const {
+  if (given != rigs()) throw std::invalid_argument("one for each rig is wanted");
 }
 
 void VectorRide::start(std::span<const double> current_mA, double at_s) {
-  require_as_many(current_mA);
+  require_as_many(current_mA.size());
   time_s_ = at_s;
   for (std::size_t i = 0; i < rigs(); ++i) {
     Member& member = *members_[i];
@@ -41,6 +41,32 @@ void VectorRide::start(std::span<const double> current_mA, double at_s) {
     member.holds = false;
     member.failure.clear();
   }
+  carry([](std::size_t) { return Carried{}; });
+}
+
+VectorRide::Saved VectorRide::save(std::size_t rig) const {
+  const auto& member = members_[rig];
+  Saved saved{member->rider.now, {}, member->failure};
+  for (const auto& [item, alone] : alone_)
+    if (item == member) saved.carried.pace = alone.pace();
+  for (const Batch& batch : batches_)
+    if (const auto carried = batch.carried(*member)) saved.carried = *carried;
+  return saved;
+}
+
+void VectorRide::resume(std::span<const Saved> saved, double at_s) {
+  require_as_many(saved.size());
+  time_s_ = at_s;
+  for (std::size_t i = 0; i < rigs(); ++i) {
+    Member& member = *members_[i];
+    member.rider.now = saved[i].rider;
+    member.holds = false;
+    member.failure = saved[i].failure;
+  }
+  carry([&](std::size_t rig) { return saved[rig].carried; });
+}
+
+void VectorRide::carry(const std::function<Carried(std::size_t rig)>& from) {
   batches_.clear();
   alone_.clear();
   constexpr std::size_t most = engine::Batch::most_lanes;
@@ -48,16 +74,17 @@ void VectorRide::start(std::span<const double> current_mA, double at_s) {
     for (std::size_t k = 0; k < all.size(); ++k) {
       const auto& member = members_[all[k]];
       if (!key.in_lanes) {
-        alone_.emplace_back(member, Alone(member->riders(), key));
+        const engine::Pace pace = from(all[k]).pace;
+        alone_.emplace_back(member, Alone(member->riders(), key, &pace));
         continue;
       }
       if (k % most == 0) batches_.emplace_back(key, std::min(most, all.size() - k), true);
-      batches_.back().submit(member);
+      batches_.back().submit(member, from(all[k]));
     }
 }
 
 void VectorRide::step(std::span<const double> current_mA, double until_s) {
-  require_as_many(current_mA);
+  require_as_many(current_mA.size());
   if (!(until_s > time_s_)) throw std::invalid_argument("time goes forward");
   time_s_ = until_s;
   for (std::size_t i = 0; i < rigs(); ++i) {

@@ -3,6 +3,7 @@
 // to the bit.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -24,6 +25,17 @@ class VectorRide {
   /// An instant and the way to the next [s]. A rig that cannot go on stays where it came to, and `failure`
   /// says why; the others go on. Throws std::invalid_argument.
   void step(std::span<const double> current_mA, double until_s);
+  /// All that changes on the way, of one rig.
+  struct Saved {
+    Rider::State rider;
+    Carried carried;
+    std::string failure;
+
+    static void members(auto& self, auto& visit) { visit(self.rider, self.carried, self.failure); }
+  };
+  Saved save(std::size_t rig) const;
+  /// In place of a start: the same rigs, in whatever company they were, go on to the same bits.
+  void resume(std::span<const Saved> saved, double at_s);
   /// A rig that stays where it is from now on, and costs nothing.
   void retire(std::size_t rig);
 
@@ -35,7 +47,9 @@ class VectorRide {
  private:
   struct Member;
 
-  void require_as_many(std::span<const double> current_mA) const;
+  void require_as_many(std::size_t given) const;
+  /// Gives each rig its place.
+  void carry(const std::function<Carried(std::size_t rig)>& from);
 
   std::map<BatchKey, std::vector<std::size_t>> alike_;  // which rigs
   std::vector<std::shared_ptr<Member>> members_;

@@ -100,6 +100,32 @@ class Pickles(unittest.TestCase):
             with self.assertRaises(ValueError):
                 spoilt.__setstate__((rig, bad))
 
+    def test_of_batches_go_on_to_the_same_bits(self):
+        late = {"effects": {"command_delay": {"time": "30 ms"}, "bladder_creep": {"stiffness": "400 N/m", "time": "2 s"}}}
+        soft = {"muscle": {"stop_stiffness": "1000 N/m", "stop_damping": "0 s/m"}}  # fails
+        rigs = [*["thesis"] * 18, late, {"friction": {"memory": "coulomb"}}, {"integrator": {"method": "cvode"}}, soft]
+        loads_kg = [*numpy.linspace(8.0, 25.0, len(rigs) - 1), 400.0]
+        currents = numpy.tile(CURRENTS[:, None], len(rigs)) + numpy.linspace(0.0, 3.0, len(rigs))
+        batch = mckibben.Batch(rigs, loads_kg)
+        self.assertEqual(again(batch).state.tobytes(), batch.state.tobytes())
+        batch.follow(currents[:37])
+        batch.restart([2, 5], loads_kg=[9.0, 19.0])
+        batch.follow(currents[37:50])
+        others = copies(batch)
+        rows = batch.follow(currents[50:])
+        batch.restart([1])
+        batch.step(9.0)
+        for other in others:
+            same = other.follow(currents[50:])
+            for key, values in rows.items():
+                self.assertEqual(same[key].tobytes(), values.tobytes(), key)
+            other.restart([1])
+            other.step(9.0)
+            self.assertEqual(other.state.tobytes(), batch.state.tobytes())
+            self.assertEqual(other.contraction_ratio.tobytes(), batch.contraction_ratio.tobytes())
+            self.assertEqual((other.time_s, other.failures), (batch.time_s, batch.failures))
+        self.assertEqual(list(batch.failures), [len(rigs) - 1])
+
     def test_of_environments_go_on_alike(self):
         env = mckibben.Env(duration_s=1.2, jitter=1e-4)
         env.reset(seed=3)
@@ -113,6 +139,19 @@ class Pickles(unittest.TestCase):
                 self.assertEqual((observation.tolist(), reward), (same.tolist(), its_reward))
         for other in others:
             numpy.testing.assert_array_equal(env.reset(seed=4)[0], other.reset(seed=4)[0])
+
+    def test_of_vector_environments_go_on_alike(self):
+        envs = mckibben.VectorEnv(3, duration_s=0.6, jitter=1e-4, rig=mckibben.env.drawn_rig)
+        self.assertEqual(again(envs).num_envs, 3)
+        envs.reset(seed=3)
+        for _ in range(20):
+            envs.step([0.1, 0.2, 0.3])
+        others = [again(envs), copy.deepcopy(envs)]
+        for _ in range(60):  # into the next episodes
+            rows = envs.step([0.2, 0.0, 0.1])
+            for other in others:
+                for one, same in zip(rows[:4], other.step([0.2, 0.0, 0.1])):
+                    self.assertEqual(one.tobytes(), same.tobytes())
 
 
 main()

@@ -86,6 +86,30 @@ TEST(VectorRide, OtherRigsMakeNoDifference) {
   }
 }
 
+TEST(VectorRide, GoesOnToTheSameBitsWhereverItIsSaved) {
+  const Members members = mixed(1e-6);
+  for (const int when : {0, 1, 20, 33}) {
+    VectorRide rides(members.rigs, members.settings), resumed(members.rigs, members.settings);
+    std::vector<double> currents(members.rigs.size());
+    for (int k = 0; k < 80; ++k) {
+      for (std::size_t i = 0; i < currents.size(); ++i) currents[i] = wave_mA(i, k);
+      if (k == 0) rides.start(currents, 0.0);
+      if (k == when) {
+        std::vector<VectorRide::Saved> saved;
+        for (std::size_t i = 0; i < currents.size(); ++i) saved.push_back(rides.save(i));
+        resumed.resume(saved, rides.time_s());
+      }
+      rides.step(currents, pace_s * (k + 1));
+      if (k >= when) resumed.step(currents, pace_s * (k + 1));
+    }
+    for (std::size_t i = 0; i < currents.size(); ++i) {
+      const auto &a = rides.rider(i).now.flow, &b = resumed.rider(i).now.flow;
+      EXPECT_EQ(std::memcmp(&a.state, &b.state, sizeof a.state), 0) << i << " saved at " << when;
+      EXPECT_EQ(std::memcmp(&a.memory, &b.memory, sizeof a.memory), 0) << i << " saved at " << when;
+    }
+  }
+}
+
 TEST(VectorRide, ARigThatFailsFailsAlone) {
   Members members;
   plant::Rig soft;  // its load falls past the range of the laws
