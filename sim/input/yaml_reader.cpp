@@ -106,9 +106,11 @@ bool ValueReader::is_scalar(std::string_view key, const Node& node, std::string_
 
 bool ValueReader::is_list(std::string_view key, const Node& node) {
   if (node.kind == Node::Kind::list) return true;
-  bad(node, node.kind == Node::Kind::scalar
-                ? fmt::format("{} must be a list: [{}]", key, shortened(node.text))
-                : fmt::format("{} must be a list, not {}", key, node.kind_name()));
+  std::string items = node.text;
+  for (const Node& child : node.children) items += (items.empty() ? "{" : ", ") + child.key + ": ...";
+  if (node.kind == Node::Kind::map) items += '}';
+  bad(node, node.kind == Node::Kind::null ? fmt::format("{} must be a list, not {}", key, node.kind_name())
+                                          : fmt::format("{} must be a list: [{}]", key, shortened(items)));
   return false;
 }
 

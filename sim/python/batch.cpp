@@ -19,14 +19,12 @@ namespace mckibben::python {
 namespace {
 
 /// A rig that a batch may have, with its load. Throws what Python shows as ValueError.
-ride::Loaded hung(const plant::Rig& rig, double load_kg) {
-  if (rig.pair() != nullptr) throw py::value_error("rigs of a batch have one muscle each");
-  if (rig.valve.seals()) throw py::value_error("rigs of a batch are commanded, no sealed muscle is");
+ride::Loaded hung(const plant::Rig& rig, double load_kg, const std::string& name) {
+  if (rig.pair() != nullptr) throw py::value_error("rigs: those of a batch have one muscle each");
+  if (rig.valve.seals()) throw py::value_error("rigs: those of a batch are commanded, no sealed muscle is");
   if (rig.lever() != nullptr)
-    throw py::value_error("a batch counts heights of loads, not the angle of a lever");
-  if (!rig.can_hang(load_kg) || !(load_kg <= 500.0))
-    throw py::value_error("loads_kg: masses of 0 to 500 kg, and something that moves");
-  return {rig, load_kg};
+    throw py::value_error("rigs: a batch counts heights of loads, not the angle of a lever");
+  return {rig, load_within(load_kg, rig, name)};
 }
 
 /// One rig for all, or a list of them.
@@ -44,9 +42,12 @@ Batch::Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads) 
   const auto loads = static_cast<std::size_t>(loads_kg.size());
   const std::vector<plant::Rig> files = rigs_of(rigs, loads);
   if (files.empty()) throw py::value_error("a batch has one rig at least");
-  if (loads != 1 && loads != files.size()) throw py::value_error("loads_kg: one number, or one for each rig");
+  if (loads != 1 && loads != files.size())
+    throw py::value_error(fmt::format("loads_kg has {} masses for {} rigs: give one, or one for each rig",
+                                      loads, files.size()));
   for (std::size_t i = 0; i < files.size(); ++i) {
-    members_.push_back({hung(files[i], loads_kg.data()[loads == 1 ? 0 : i])});
+    const std::size_t of = loads == 1 ? 0 : i;
+    members_.push_back({hung(files[i], loads_kg.data()[of], fmt::format("loads_kg[{}]", of))});
     require_alike(files[i]);
   }
   start(std::nullopt);
@@ -76,13 +77,15 @@ void Batch::restart(const std::vector<std::size_t>& which, const py::object& rig
   std::vector<Member> others;
   std::vector<bool> seen(members_.size());
   for (std::size_t i = 0; i < which.size(); ++i) {
-    if (which[i] >= members_.size()) throw py::index_error("no such rig in the batch");
+    if (which[i] >= members_.size())
+      throw py::index_error(fmt::format("which[{}] = {}: must be below {}", i, which[i], members_.size()));
     if (seen[which[i]]) throw py::value_error("which: each rig once");
     seen[which[i]] = true;
     const Member& now = members_[which[i]];
     const plant::Rig& rig = files.empty() ? now.hung.rig : files[i];
     require_alike(rig);
-    others.push_back({hung(rig, loads_kg ? loads_kg->data()[i] : now.hung.load_kg)});
+    others.push_back(
+        {hung(rig, loads_kg ? loads_kg->data()[i] : now.hung.load_kg, fmt::format("loads_kg[{}]", i))});
   }
   const py::gil_scoped_release released;
   for (std::size_t i = 0; i < which.size(); ++i) {
@@ -148,7 +151,7 @@ std::unique_ptr<Batch> Batch::unpickled(const py::tuple& state) {
   read_bytes(state[1], batch->threads_, batch->ticks_, batch->whole_);
   const auto all = state[0].cast<std::vector<py::tuple>>();
   for (const py::tuple& one : all)
-    batch->members_.push_back({hung(one[0].cast<const Rig&>().file, one[1].cast<double>())});
+    batch->members_.push_back({hung(one[0].cast<const Rig&>().file, one[1].cast<double>(), "loads_kg")});
   batch->divide(batch->everybody());
   for (const Part& part : batch->parts_) {
     std::vector<ride::VectorRide::Saved> saved(part.rigs.size());

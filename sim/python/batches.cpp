@@ -1,6 +1,9 @@
 // Many rigs that Python steps, as its module's class: batch.hpp is what it does.
+#include <memory>
 #include <optional>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include <sim/python/batch.hpp>
 #include <sim/python/inputs.hpp>
@@ -17,8 +20,13 @@ void add_batch(py::module_& module) {
   py::class_<Batch>(module, "Batch",
                     "Many rigs with a load each, stepped together, each under its own command.")
       .def(py::pickle([](const Batch& batch) { return batch.pickled(); }, &Batch::unpickled))
-      .def(py::init<const py::object&, const Batch::Numbers&, unsigned>(), py::arg("rigs"),
-           py::arg("loads_kg"), py::arg("threads") = 1,
+      .def(py::init([](const py::object& rigs, const py::object& loads_kg, int threads) {
+             if (threads < 0)
+               throw py::value_error(
+                   fmt::format("threads = {}: must be 0, as many as the machine has, or more", threads));
+             return std::make_unique<Batch>(rigs, loads_of(loads_kg), static_cast<unsigned>(threads));
+           }),
+           py::arg("rigs"), py::arg("loads_kg"), py::arg("threads") = 1,
            "One Rig (or what makes one) with a load [kg] each, shape (n,), or a list of n rigs with one "
            "muscle "
            "and the same tick. Eight rigs go through the laws at once where they can; what becomes of one "
@@ -43,7 +51,9 @@ void add_batch(py::module_& module) {
       .def(
           "restart",
           [](Batch& batch, const std::vector<std::size_t>& which, const py::object& rigs,
-             const Some& loads_kg, const Some& command) { batch.restart(which, rigs, loads_kg, command); },
+             const py::object& loads_kg, const Some& command) {
+            batch.restart(which, rigs, loads_kg.is_none() ? Some() : loads_of(loads_kg), command);
+          },
           py::arg("which"), py::arg("rigs") = py::none(), py::arg("loads_kg") = py::none(),
           py::arg("command") = py::none(),
           "Those of these indices begin again and are settled now, the others go on as they were. `rigs`, "

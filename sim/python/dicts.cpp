@@ -4,6 +4,7 @@
 
 #include <sim/input/limits.hpp>
 #include <sim/input/rigs.hpp>
+#include <sim/input/utf8.hpp>
 #include <sim/python/dicts.hpp>
 
 namespace mckibben::python {
@@ -152,6 +153,16 @@ std::string path_of(const py::object& from) {
   std::string path = py::module_::import("os").attr("fsencode")(from).cast<std::string>();
   if (path.find('\0') != std::string::npos) throw py::value_error("a path has no null characters");
   return path;
+}
+
+void require_path(const py::object& from, const std::string& name) {
+  if (py::isinstance<py::str>(from) || py::isinstance<py::bytes>(from) || py::hasattr(from, "__fspath__"))
+    return;
+  throw py::type_error(fmt::format("{} = {}: must be a name, a path or a dict", name, repr_of(from)));
+}
+
+std::string repr_of(const py::handle& value) {
+  return input::shortened(py::repr(value).cast<std::string>());
 }
 
 DictText text_of(const py::dict& dict, const std::string& name, const std::string& schema) {

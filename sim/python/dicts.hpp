@@ -45,13 +45,21 @@ DictText text_of(const py::dict& dict, const std::string& name, const std::strin
 /// The bytes of a path, or of whatever names one. Throws py::type_error, py::value_error for what no file can
 /// be called.
 std::string path_of(const py::object& from);
+/// Throws py::type_error for what names no file, and is no dict.
+void require_path(const py::object& from, const std::string& name);
+
+/// A value as Python shows it, in a message.
+std::string repr_of(const py::handle& value);
 
 /// What `read` makes of a dict's text or of a file. `from`: a dict, or a path; `folder`: where a dict's
 /// relative paths start.
 template <class FromText, class FromPath>
 auto read_either(const py::object& from, const std::filesystem::path& folder, const std::string& name,
                  const std::string& schema, const FromText& from_text, const FromPath& from_path) {
-  if (!py::isinstance<py::dict>(from)) return from_path(path_of(from));
+  if (!py::isinstance<py::dict>(from)) {
+    require_path(from, name);
+    return from_path(path_of(from));
+  }
   const DictText dict = text_of(from.cast<py::dict>(), name, schema);
   try {
     return from_text(input::Source(dict.name, dict.text, folder));

@@ -37,6 +37,31 @@ double command_within(double value, const plant::Rig& rig, const std::string& na
                 std::string(name_of(rig.command_unit())));
 }
 
+std::optional<double> load_of(const py::object& given) {
+  if (given.is_none()) return {};
+  const double load_kg = PyFloat_AsDouble(given.ptr());
+  if (PyErr_Occurred() == nullptr) return load_kg;
+  PyErr_Clear();
+  throw py::type_error("load_kg = " + repr_of(given) + ": must be a mass in kg, as a number");
+}
+
+py::array_t<double, py::array::c_style | py::array::forcecast> loads_of(const py::object& given) {
+  const auto loads_kg = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
+  if (!loads_kg || py::isinstance<py::str>(given))
+    throw py::type_error("loads_kg = " + repr_of(given) + ": must be masses in kg, as numbers");
+  return loads_kg;
+}
+
+double load_within(double load_kg, const plant::Rig& rig, const std::string& name) {
+  within(load_kg, 0.0, 500.0, name, "kg");
+  if (!rig.can_hang(load_kg))
+    throw py::value_error(
+        fmt::format("{} = {:g}: nothing moves; give a larger load, or set "
+                    "joint.moving_mass or joint.wheel_inertia",
+                    name, load_kg));
+  return load_kg;
+}
+
 std::string fields_of(const plant::Rig& rig) {
   input::Json json = input::rig_json(rig);
   json.erase("schema");

@@ -23,10 +23,13 @@ constexpr double longest_step_s = 60.0;  // longer ones can be taken in several
 constexpr double lowest_pressure_Pa = -plant::Pa_per_bar, highest_pressure_Pa = 100.0 * plant::Pa_per_bar;
 
 ride::Ride ride_of(const plant::Rig& rig, std::optional<double> load_kg) {
-  if (rig.pair() != nullptr && load_kg) throw py::value_error("two muscles turn a link; no load hangs there");
-  if (rig.pair() == nullptr && (!load_kg || !rig.can_hang(*load_kg) || !(*load_kg <= 500.0)))
-    throw py::value_error(
-        "load_kg: a mass of 0 to 500 kg hangs on one muscle; at 0 joint.moving_mass or wheel_inertia moves");
+  if (rig.pair() != nullptr && load_kg)
+    throw py::value_error(fmt::format(
+        "load_kg = {:g}: must be left out; two muscles turn a link, no load hangs there", *load_kg));
+  if (rig.pair() == nullptr) {
+    if (!load_kg) throw py::value_error("load_kg is missing: the mass that hangs on the muscle, 0 to 500 kg");
+    load_within(*load_kg, rig, "load_kg");
+  }
   return {ride::Loaded{rig, load_kg.value_or(0.0)}, rig.integrator};
 }
 

@@ -132,8 +132,10 @@ void add_rides(py::module_& module) {
       .def("__copy__", copy)
       .def(
           "__deepcopy__", [copy](const Ride& ride, const py::dict&) { return copy(ride); }, py::arg("memo"))
-      .def(py::init<const py::object&, std::optional<double>>(), py::arg("rig") = "thesis",
-           py::arg("load_kg") = py::none(),
+      .def(py::init([](const py::object& rig, const py::object& load_kg) {
+             return std::make_unique<Ride>(rig, load_of(load_kg));
+           }),
+           py::arg("rig") = "thesis", py::arg("load_kg") = py::none(),
            "A Rig, or what makes one, with a load [kg] on it; none on two muscles. It stands settled at 0 s, "
            "its valves at the lower ends of their lines.")
       .def(

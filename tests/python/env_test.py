@@ -64,20 +64,33 @@ class Env(unittest.TestCase):
         with self.assertRaises(RuntimeError):
             env.step([0.0])
         env.reset(seed=1)
-        for no_action in ([float("nan")], [], [0.1, 0.2]):
-            with self.assertRaises(ValueError):
+        for no_action in ([float("nan")], [], [0.1, 0.2], "a", None):
+            with self.assertRaisesRegex(ValueError, r"must be finite numbers of shape \(1,\)"):
                 env.step(no_action)
-        with self.assertRaisesRegex(ValueError, "the lightest and the heaviest"):
-            mckibben.Env(loads_kg=(5.0,))
-        for key, value in {"rig": [], "target": [], "loads_kg": 11.0, "duration_s": "6 s"}.items():
-            with self.assertRaisesRegex(ValueError, key):
-                mckibben.Env(**{key: value})
+        with self.assertRaisesRegex(TypeError, "rig = 3: must be a name, a path or a dict"):
+            mckibben.Env(rig=3)
+        for key, value, said in (
+                ("rig", [], "rig: a list of one at least"), ("target", [], "target: a list of one at least"),
+                ("loads_kg", (5.0,), r"loads_kg = \(5.0,\): two masses are wanted, the lightest and the heaviest"),
+                ("loads_kg", 11.0, "loads_kg = 11.0: two"), ("loads_kg", ("8 kg", 9.0), r"loads_kg\[0\] = '8 kg': must be a number"),
+                ("loads_kg", (8.0, numpy.nan), r"loads_kg\[1\] = nan: must be a number from 0 to 500 kg"),
+                ("jitter", -1, "jitter = -1: must be a number from 0 to 1"), ("jitter", "1e-3", "jitter = '1e-3'"),
+                ("duration_s", "6 s", "duration_s = '6 s': must be a number from 0.0001 to 3600 s")):
+            for make in (mckibben.Env, mckibben.VectorEnv):
+                with self.assertRaisesRegex(ValueError, said):
+                    make(**{key: value})
         for make in (mckibben.Env, mckibben.VectorEnv):
             refused, other = make(), make()
             for each in (refused, other):
                 each.reset(seed=3)
             with self.assertRaisesRegex(ValueError, "'loadkg' is unknown; there are load_kg"):
                 refused.reset(seed=9, options={"loadkg": 1.0})
+            for load_kg in ("8 kg", numpy.nan):
+                with self.assertRaisesRegex(ValueError, f"options: load_kg = {load_kg!r}: must be a number from 0 to 500"):
+                    refused.reset(seed=9, options={"load_kg": load_kg})
+            for seed in ("a", -1, 1.5):
+                with self.assertRaisesRegex(ValueError, f"seed = {seed!r}: must be a whole number"):
+                    refused.reset(seed=seed)
             self.assertEqual(refused.reset()[1]["load_kg"], other.reset()[1]["load_kg"], "its seed is not taken")
         self.assertFalse(env.step(env.action_space.sample())[3])
         self.assertTrue(env.step([5.0])[3])
@@ -255,10 +268,12 @@ class VectorEnv(unittest.TestCase):
         with self.assertRaises(ValueError):
             envs.reset(seed=[1, 2, 3])
         envs.reset(seed=1)
-        for bad in ([0.0], [0.0, float("nan")], [0.0] * 3, [[0.0, 0.0]]):
+        for bad in ([0.0], [0.0, float("nan")], [0.0] * 3, [[0.0, 0.0]], ["a", "b"]):
             with self.assertRaisesRegex(ValueError, r"of shape \(2, 1\)"):
                 envs.step(bad)
         self.assertLess(len(repr(mckibben.VectorEnv(64).action_space)), 60)
+        with self.assertRaisesRegex(ValueError, "threads = -1"):
+            mckibben.VectorEnv(2, threads=-1)
         for many in (0, 2.5):
             with self.assertRaisesRegex(ValueError, "num_envs"):
                 mckibben.VectorEnv(many)

@@ -61,6 +61,10 @@ class Rigs(unittest.TestCase):
         for nonsense in (5, None, [1], {"tick": {1: 2}}, {"tick": object()}):
             with self.assertRaises(TypeError):
                 mckibben.Rig(nonsense)
+        with self.assertRaisesRegex(TypeError, r"rig = \[1\]: must be a name, a path or a dict"):
+            mckibben.Rig([1])
+        with self.assertRaisesRegex(ValueError, r"targets must be a list: \[\{angle: ..., stiffness: ...\}\]"):
+            mckibben.Rig("thesis_pair").run(duration="1 s", targets={"angle": {}, "stiffness": {}}, controllers=[{"kind": "pid"}])
         with self.assertRaises(mckibben.InputError):
             mckibben.Rig({"tick": float("nan")})
         with self.assertRaises(mckibben.InputError):

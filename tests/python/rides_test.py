@@ -118,6 +118,11 @@ class Rides(unittest.TestCase):
                 bad()
         with self.assertRaises(TypeError):
             ride.step("9 mA")
+        for words, bad in (("load_kg = '8 kg': must be a mass in kg", lambda: mckibben.Ride(load_kg="8 kg")),
+                           (r"loads_kg = \['8 kg', 9.0\]: must be masses in kg", lambda: mckibben.Batch("thesis", ["8 kg", 9.0])),
+                           ("rig = 3: must be a name", lambda: mckibben.Batch(["thesis", 3], 8.0))):
+            with self.assertRaisesRegex(TypeError, words):
+                bad()
 
     def test_what_contradicts_itself_or_leaves_its_range_is_refused_and_changes_nothing(self):
         ride, pair = mckibben.Ride(load_kg=11.138), mckibben.Ride("thesis_pair")
@@ -132,6 +137,11 @@ class Rides(unittest.TestCase):
                 ("no opposite one", lambda: ride.step(9.0, opposite_command=0.0)),
                 ("no opposite one", lambda: ride.follow([9.0], [9.0])),
                 (r"dt_s = 100000: must be above 0 and at most 60 s", lambda: ride.step(9.0, dt_s=1e5)),
+                ("load_kg is missing", lambda: mckibben.Ride()), ("load_kg = nan: must be", lambda: mckibben.Ride(load_kg=numpy.nan)),
+                ("load_kg = 0: nothing moves", lambda: mckibben.Ride({"joint": {"wheel_inertia": "0 kg.m2"}}, 0.0)),
+                (r"loads_kg\[1\] = nan: must be from 0 to 500 kg", lambda: mckibben.Batch("thesis", [8.0, numpy.nan])),
+                ("loads_kg has 3 masses for 2 rigs", lambda: mckibben.Batch(["thesis", "thesis"], [8.0, 9.0, 10.0])),
+                (r"loads_kg\[0\] = -1", lambda: mckibben.Batch("thesis", [8.0]).restart([0], loads_kg=[-1.0])),
                 (r"loads_kg has the shape \(n,\)", lambda: mckibben.Batch("thesis", [[8.0, 9.0], [8.0, 9.0]])),
                 ("at_s", lambda: ride.start(12.0, at_s=float("nan"))),
                 (r"command\[1\] = 21", lambda: ride.follow([9.0, 21.0])),

@@ -3,13 +3,13 @@
 Gymnasium is not needed. Where it is installed, Env and VectorEnv are its environments, with ids: Track-v0, and
 TrackDrawn-v0, whose rigs and targets are drawn.
 """
-import math
 import numbers
 
 import numpy
 
-from ._core import Batch, Ride, Rig, Scenario
+from ._core import Batch, Ride
 from .errors import NumericalFailure
+from .task import Episode, Task, actions_of
 
 try:
     import gymnasium
@@ -26,123 +26,12 @@ except ImportError:
     from .without_gymnasium import AutoresetMode
 
 
-def _one_of(several, random):
-    """One of a list, by chance; what a function of chance makes; or itself."""
-    if callable(several):
-        return several(random)
-    if isinstance(several, (list, tuple)):
-        return several[int(random.integers(len(several)))]
-    return several
-
-
 def _mode(given):
     """An AutoresetMode by itself, its name or its value."""
     for mode in AutoresetMode:
         if getattr(given, "value", given) in (mode.name, mode.value):
             return mode
     raise ValueError(f"autoreset_mode: {given!r} is none of {', '.join(mode.name for mode in AutoresetMode)}")
-
-
-class _Task:
-    """What episodes have in common, and what is drawn for each."""
-    TARGET = {"kind": "sine", "mean": 0.1, "amplitude": 0.05, "period": "4 s"}
-    MOST, FASTEST = 0.5, 20.0  # contraction ratio [1] that no braid reaches, its speed [1/s]
-
-    def __init__(self, rig, loads_kg, target, duration_s, jitter):
-        for name, value in {"rig": rig, "target": target}.items():
-            if isinstance(value, (list, tuple)) and not value:
-                raise ValueError(f"{name}: a list of one at least, for each episode to draw from")
-        if isinstance(rig, (list, tuple)):
-            self.rig = [self.made(one) for one in rig]
-        else:
-            self.rig = rig if callable(rig) else self.made(rig)
-        if numpy.shape(loads_kg) != (2,):
-            raise ValueError("loads_kg: the lightest and the heaviest load, as (8.0, 23.0)")
-        for name, value in {"duration_s": duration_s, "jitter": jitter}.items():
-            if not isinstance(value, numbers.Real):
-                raise ValueError(f"{name} = {value!r} is no number")
-        self.loads_kg = tuple(sorted(map(float, loads_kg)))
-        self.target = self.TARGET if target is None else target
-        self.duration_s, self.jitter = float(duration_s), float(jitter)
-        rigs = self.rig if isinstance(self.rig, list) else [] if callable(self.rig) else [self.rig]
-        most = max((one.largest_contraction_ratio for one in rigs), default=self.MOST)
-        self.action_space = Box(numpy.float32([-1.0]), numpy.float32([1.0]))
-        self.observation_space = Box(numpy.float32([-most, -self.FASTEST, -1.0, -1.0]),
-                                     numpy.float32([2.0 * most, self.FASTEST, 1.0, 1.0]))
-        self.fixed = None
-        _, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
-        if isinstance(self.rig, Rig) and isinstance(self.target, dict):
-            self.fixed = drawn
-
-    @staticmethod
-    def made(rig):
-        rig = rig if isinstance(rig, Rig) else Rig(rig)
-        kind = rig.to_dict().get("mechanics", {}).get("kind", "hanging_load")
-        if kind != "hanging_load":
-            raise ValueError(f"rig: an environment is one muscle that lifts a hanging load; this rig's mechanics are {kind}. "
-                             "Step it with Ride, or run a Scenario")
-        return rig
-
-    @staticmethod
-    def check(options):
-        """Of a reset, before it changes anything; without what is of a VectorEnv."""
-        if unknown := set(options) - {"load_kg"}:
-            raise ValueError(f"options: {', '.join(sorted(map(repr, unknown)))} is unknown; there are load_kg and, of a "
-                             "VectorEnv, reset_mask")
-
-    def draw(self, random, options):
-        """Rig, load [kg] and target of an episode."""
-        rig = _one_of(self.rig, random)
-        if callable(self.rig):
-            rig = self.made(rig)
-        target = _one_of(self.target, random)
-        load_kg = float(options.get("load_kg", random.uniform(*self.loads_kg)))
-        if self.fixed is not None:
-            return rig, load_kg, self.fixed
-        unit = rig.command_unit  # whoever is to follow it: a scenario wants a controller
-        anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
-        scenario = Scenario({"rig": rig, "loads": [f"{load!r} kg" for load in sorted(set(self.loads_kg))],
-                             "target": target, "duration": f"{self.duration_s!r} s", "controllers": [anybody]})
-        return rig, load_kg, scenario.target
-
-
-class _Episode:
-    """Where one stands: its numbers as they are read, and rewarded."""
-
-    def __init__(self, task, random, options):
-        self.task, self.random = task, random
-        self.rig, self.load_kg, self.target = task.draw(random, options)
-        self.zero, self.span = self.rig.command_range
-        self.tick, self.action, self.last = 0, -1.0, 0.0
-        self.info = {"load_kg": self.load_kg, "time_s": 0.0}
-
-    def begin(self, counted):
-        self.last = self.read(counted)
-        return self.observation(0.0)
-
-    def command(self, action):
-        """What the DAC gives for an action."""
-        self.action = min(1.0, max(-1.0, action))
-        return self.rig.dac_output(self.zero + 0.5 * (self.action + 1.0) * (self.span - self.zero))
-
-    def arrive(self, counted):
-        """A tick later: observation, reward, whether it was the last tick."""
-        self.tick += 1
-        before, self.last = self.last, self.read(counted)
-        reward = -100.0 * abs(self.last - self.target[self.tick])
-        return self.observation((self.last - before) / self.rig.tick_s), float(reward), self.over()
-
-    def over(self):
-        return self.tick + 1 >= len(self.target)
-
-    def read(self, counted):
-        jitter = self.task.jitter
-        return counted + jitter * self.random.standard_normal() if jitter else counted
-
-    def observation(self, speed_per_s):
-        space = self.task.observation_space
-        seen = numpy.float32([self.last, speed_per_s, self.target[self.tick], self.action])
-        return numpy.clip(seen, space.low, space.high)
 
 
 class Env(Base):
@@ -173,8 +62,8 @@ class Env(Base):
         one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s. `loads_kg`: between these
         each episode draws its load. `jitter`: root mean square of what shakes the reading, as a contraction ratio [1].
         Raises InputError, ValueError."""
-        self.task = _Task(rig, loads_kg, target, duration_s, jitter)
-        self.action_space, self.observation_space = self.task.action_space, self.task.observation_space
+        self.task = Task(rig, loads_kg, target, duration_s, jitter)
+        self.action_space, self.observation_space = (Box(*ends) for ends in (self.task.acted, self.task.observed))
         self.loads_kg = self.task.loads_kg
         self.episode = self.ride = None
         self.rows = []
@@ -200,9 +89,9 @@ class Env(Base):
         """A new episode: (observation, info). `seed` decides its rig, target, load and jitter; `options` may say
         {"load_kg": ...}. The same seed, the same episode."""
         options = options or {}
-        self.task.check(options)
+        self.task.check(options, seed)
         super().reset(seed=seed)
-        self.episode = _Episode(self.task, self.np_random, options)
+        self.episode = Episode(self.task, self.np_random, options)
         self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
         self.rows = []
         return self.episode.begin(self.ride.reading.contraction_ratio), dict(self.episode.info)
@@ -213,10 +102,7 @@ class Env(Base):
             raise RuntimeError("reset comes before the first step")
         if self.episode.over():
             raise RuntimeError("the episode has ended; reset begins another one")
-        values = numpy.asarray(action, dtype=float)
-        if values.size != 1 or not math.isfinite(values.flat[0]):
-            raise ValueError(f"an action is one finite number, of shape (1,), not {action!r}")
-        command = self.episode.command(float(values.flat[0]))
+        command = self.episode.command(float(actions_of(action, (1,))[0]))
         unit = self.episode.rig.command_unit
         info = {"current_mA" if unit == "mA" else f"command_{unit}": command}
         terminated = False
@@ -254,13 +140,15 @@ class VectorEnv(VectorBase):
     def __init__(self, num_envs=1, rig="thesis", loads_kg=(8.0, 23.0), target=None, duration_s=12.0, jitter=0.0,
                  autoreset_mode=AutoresetMode.NEXT_STEP, threads=1):
         """As Env; rigs of one batch have the same tick and are commanded in the same unit."""
-        self.task = _Task(rig, loads_kg, target, duration_s, jitter)
-        if not isinstance(num_envs, numbers.Integral) or num_envs < 1:
-            raise ValueError(f"num_envs = {num_envs!r}: a whole number, one at least")
-        self.num_envs, self.threads = int(num_envs), threads
+        self.task = Task(rig, loads_kg, target, duration_s, jitter)
+        for name, value, least in (("num_envs", num_envs, 1), ("threads", threads, 0)):
+            if not isinstance(value, numbers.Integral) or value < least:
+                raise ValueError(f"{name} = {value!r}: a whole number, {least} at least")
+        self.num_envs, self.threads = int(num_envs), int(threads)
         self.autoreset_mode = _mode(autoreset_mode)
         self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
-        self.single_action_space, self.single_observation_space = self.task.action_space, self.task.observation_space
+        self.single_action_space, self.single_observation_space = (
+            Box(*ends) for ends in (self.task.acted, self.task.observed))
         self.action_space = self._many(self.single_action_space)
         self.observation_space = self._many(self.single_observation_space)
         self.episodes, self.batch = [None] * self.num_envs, None
@@ -276,22 +164,20 @@ class VectorEnv(VectorBase):
         for each. With options {"reset_mask": booleans} these alone begin again, and the others stay where they are."""
         options = dict(options or {})
         mask = options.pop("reset_mask", None)
-        self.task.check(options)
-        super().reset(seed=seed if isinstance(seed, int) else None)
+        seeds = [seed] * self.num_envs if numpy.ndim(seed) == 0 else list(seed)
+        if len(seeds) != self.num_envs:
+            raise ValueError(f"seed = {seed!r}: one number, or one for each of {self.num_envs} members")
+        self.task.check(options, *seeds)
+        super().reset(seed=None if seed is None or numpy.ndim(seed) else int(seed))
         if mask is not None:
             mask = numpy.asarray(mask)
             if mask.shape != (self.num_envs,) or mask.dtype != bool or not mask.any():
                 raise ValueError("reset_mask: a boolean for each member, one of them true")
         if self.batch is None or mask is None:
             mask = numpy.ones(self.num_envs, dtype=bool)
-        if numpy.ndim(seed) == 0:
-            seed = [None if seed is None else seed + i for i in range(self.num_envs)]
-        seeds = list(seed)
-        if len(seeds) != self.num_envs:
-            raise ValueError("seed: one number, or one for each member")
         for i in numpy.flatnonzero(mask):
             if seeds[i] is not None:
-                self.random[i] = numpy.random.default_rng(seeds[i])
+                self.random[i] = numpy.random.default_rng(int(seeds[i]) + (0 if numpy.ndim(seed) else int(i)))
         infos = {}
         self.observations = self._begin(numpy.flatnonzero(mask), options, infos)
         return self.observations.copy(), infos
@@ -302,11 +188,7 @@ class VectorEnv(VectorBase):
             raise RuntimeError("reset comes before the first step")
         if self.autoreset_mode == AutoresetMode.DISABLED and self.ended.any():
             raise RuntimeError("an episode has ended; reset(options={'reset_mask': ...}) begins another one")
-        actions = numpy.asarray(actions, dtype=float)
-        if actions.shape not in ((self.num_envs, 1), (self.num_envs,)) or not numpy.isfinite(actions).all():
-            raise ValueError(f"actions are a finite number for each member, of shape ({self.num_envs}, 1); these have "
-                             f"the shape {actions.shape}")
-        actions = actions.reshape(-1)
+        actions = actions_of(actions, (self.num_envs, 1))[:, 0]
         waiting, infos = self.ended.copy(), {}
         self.batch.step([one.command(action) for one, action in zip(self.episodes, actions)])
         rewards = numpy.zeros(self.num_envs)
@@ -340,7 +222,7 @@ class VectorEnv(VectorBase):
     def _begin(self, which, options, infos):
         """New episodes of these members; all observations."""
         for i in which:
-            self.episodes[i] = _Episode(self.task, self.random[i], options)
+            self.episodes[i] = Episode(self.task, self.random[i], options)
         rigs, loads_kg = [self.episodes[i].rig for i in which], [self.episodes[i].load_kg for i in which]
         if len(which) == self.num_envs:
             self.batch = Batch(rigs, loads_kg, self.threads)
