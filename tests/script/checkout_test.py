@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The script ./mckibben in a checkout that its user cannot write: a build that is there is run; otherwise, or if a
-source is newer, the program is built in the user's cache. Cmake is played by a stub.
+source is newer, the program is built in the user's cache. Its own verbs have a --help. Cmake is played by a stub.
 
     checkout_test.py SCRIPT
 """
@@ -46,13 +46,18 @@ def main():
         environment = os.environ | {"PATH": os.path.join(root, "bin") + ":" + os.environ["PATH"], "HOME": home}
         environment.pop("XDG_CACHE_HOME", None)
 
-        def run(**more):
-            said = subprocess.run([os.path.join(checkout, "mckibben"), "--version"], env=environment | more,
+        def run(*arguments, **more):
+            said = subprocess.run([os.path.join(checkout, "mckibben"), *(arguments or ["--version"])], env=environment | more,
                                   preexec_fn=become_nobody, capture_output=True, text=True, cwd=home, timeout=60)
             assert said.returncode == 0, (said.returncode, said.stderr)
             return said.stdout
 
         os.chmod(checkout, 0o555)
+        for verb in ("python", "test", "bench", "package"):  # says what it does, and does nothing
+            said = run(verb, "--help")
+            assert said.startswith("./mckibben " + verb), said
+            assert ("/usr/bin/python3 --help" in said) == (verb == "python"), said
+        assert run("run", "--help").startswith("built in")
         assert run().startswith(f"built in {home}/.cache/mckibben/"), run()
         assert run(XDG_CACHE_HOME=home + "/other").startswith(f"built in {home}/other/mckibben/")
         os.chmod(checkout, 0o755)
