@@ -100,8 +100,9 @@ Scenario scenario_of(const py::object& from, const std::filesystem::path& folder
 }
 
 py::object sampled_target(const Scenario& scenario) {
-  if (scenario.what.rig.pair() != nullptr) return py::none();
-  const std::vector<double> target = run::wanted_of(scenario.what).front().ratios;
+  const std::vector<run::Wanted> all = run::wanted_of(scenario.what);
+  if (all.size() != 1) return py::none();
+  const auto& target = scenario.what.rig.pair() != nullptr ? all.front().values : all.front().ratios;
   return py::array_t<double>(static_cast<py::ssize_t>(target.size()), target.data());
 }
 
@@ -229,6 +230,14 @@ void add_inputs(py::module_& module) {
           },
           "Ends of the valve's line: no pressure, and most of it.")
       .def_property_readonly(
+          "opposite_command_range",
+          [](const Rig& rig) -> std::optional<std::pair<double, double>> {
+            const plant::Pair* const pair = rig.file.pair();
+            if (pair == nullptr) return {};
+            return std::pair(pair->opposite.valve.zero_command, pair->opposite.valve.span_command);
+          },
+          "The same of muscle 2; None of one muscle.")
+      .def_property_readonly(
           "current_range_mA",
           [](const Rig& rig) {
             const auto& valve = rig.file.valve;
@@ -262,7 +271,8 @@ void add_inputs(py::module_& module) {
           "rig", [](const Scenario& s) { return Rig{s.what.rig}; }, "Its rig.")
       .def_property_readonly(
           "target", &sampled_target,
-          "Contraction ratio that is wanted at each tick [1], shape (ticks,); None for a pair.")
+          "Contraction ratio that is wanted at each tick [1], shape (ticks,); of a pair the angle [rad], or "
+          "None where it has not one target.")
       .def_readonly("warnings", &Scenario::warnings, "What its reader warned of.");
 
   py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>> datasets(

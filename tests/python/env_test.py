@@ -54,10 +54,34 @@ class Env(unittest.TestCase):
         self.assertEqual(len(env.history["time_s"]), 0)
 
     def test_rigs_that_lift_no_load_are_refused(self):
-        for kind in ("pair", "lever", "held_length"):
-            with self.assertRaisesRegex(ValueError, f"hanging load; this rig's mechanics are {kind}"):
+        for kind in ("lever", "held_length"):
+            with self.assertRaisesRegex(ValueError, f"a pair of muscles; this rig's mechanics are {kind}"):
                 mckibben.Env(rig={"joint": {"highest_angle": "100 deg"} if kind == "lever" else {},
                                   "mechanics": {"kind": kind}})
+
+    def test_two_muscles_turn_a_joint(self):
+        env = mckibben.Env("thesis_pair", duration_s=2.4)
+        self.keeps_gymnasiums_conventions(mckibben.Env("thesis_pair", duration_s=2.4, jitter=1e-4))
+        env.reset(seed=1)
+        for _ in range(100):
+            observation, reward, _, _, info = env.step([0.3, -0.3])
+        angle, _, target, *action = observation
+        self.assertAlmostEqual(angle, 0.227, delta=0.02)  # what a Ride comes to
+        ride = mckibben.Ride("thesis_pair")
+        for _ in range(100):
+            ride.step(info["current_1_mA"], opposite_command=info["current_2_mA"])
+        self.assertEqual(numpy.float32(ride.reading.angle_rad), angle)
+        self.assertAlmostEqual(target, numpy.radians(15.0) * numpy.sin(2.0 * numpy.pi * 1.2 / 4.0), places=6)
+        self.assertEqual(action, [numpy.float32(0.3), numpy.float32(-0.3)])
+        self.assertAlmostEqual(reward, -100.0 * abs(float(angle) - float(target)), places=3)
+        self.assertEqual((env.history["angle_rad"][-1], env.history["opposite_command"][-1]),
+                         (ride.reading.angle_rad, info["current_2_mA"]))
+        for said, bad in (("loads_kg = .*: must be left out", lambda: mckibben.Env("thesis_pair", loads_kg=(1.0, 2.0))),
+                          (r"of shape \(2,\)", lambda: env.step([0.1])), ("'load_kg' is unknown", lambda: env.reset(options={"load_kg": 9.0})),
+                          ("all rigs of an environment", lambda: mckibben.Env(["thesis", "thesis_pair"])),
+                          ("VectorEnv is of rigs with one muscle", lambda: mckibben.VectorEnv(2, "thesis_pair"))):
+            with self.assertRaisesRegex(ValueError, said):
+                bad()
 
     def test_nothing_is_done_out_of_order(self):
         env = mckibben.Env(duration_s=0.036)
@@ -170,15 +194,17 @@ class Env(unittest.TestCase):
                 module = importlib.reload(importlib.reload(mckibben.env))
             self.assertTrue(issubclass(module.Env, gymnasium.Env))
             self.keeps_gymnasiums_conventions(module.Env())
-            self.assertEqual(set(gymnasium.registry), {"mckibben/Track-v0", "mckibben/TrackDrawn-v0"})
+            self.assertEqual(set(gymnasium.registry), {f"mckibben/Track{which}-v0" for which in ("", "Drawn", "Pair")})
             for spec in gymnasium.registry.values():
                 for entry, wanted, extra in (("entry_point", gymnasium.Env, {}),
                                              ("vector_entry_point", vector.VectorEnv, {"num_envs": 2})):
+                    if entry not in spec:
+                        continue
                     name, made = spec[entry].split(":")
-                    env = getattr(sys.modules[name], made)(**extra, **spec["kwargs"])
+                    env = getattr(sys.modules[name], made)(**extra, **spec.get("kwargs", {}))
                     self.assertIsInstance(env, wanted)
                     env.reset(seed=1)
-            self.assertIs(env.metadata["autoreset_mode"], vector.AutoresetMode.NEXT_STEP)
+            self.assertIs(module.VectorEnv().metadata["autoreset_mode"], vector.AutoresetMode.NEXT_STEP)
         finally:
             importlib.reload(mckibben.env)
         self.assertFalse(issubclass(mckibben.env.Env, gymnasium.Env))

@@ -140,6 +140,11 @@ class Pickles(unittest.TestCase):
         for other in others:
             numpy.testing.assert_array_equal(env.reset(seed=4)[0], other.reset(seed=4)[0])
 
+        pair = mckibben.Env("thesis_pair", duration_s=1.2)
+        pair.reset(seed=3)
+        pair.step([0.3, 0.1])
+        self.assertEqual(again(pair).step([0.1, 0.2])[0].tobytes(), pair.step([0.1, 0.2])[0].tobytes())
+
     def test_of_vector_environments_go_on_alike(self):
         envs = mckibben.VectorEnv(3, duration_s=0.6, jitter=1e-4, rig=mckibben.env.drawn_rig)
         self.assertEqual(again(envs).num_envs, 3)

@@ -1,7 +1,7 @@
 """The rig as an environment for learning controllers, in the manner of Gymnasium: reset, step, spaces.
 
-Gymnasium is not needed. Where it is installed, Env and VectorEnv are its environments, with ids: Track-v0, and
-TrackDrawn-v0, whose rigs and targets are drawn.
+Gymnasium is not needed. Where it is installed, Env and VectorEnv are its environments, with ids: Track-v0,
+TrackDrawn-v0, whose rigs and targets are drawn, and TrackPair-v0, two muscles against each other.
 """
 import numbers
 
@@ -41,6 +41,8 @@ class Env(Base):
     observation  shape (4,): contraction ratio as the encoder counts it, its speed by these counts over the last
                  tick [1/s], the target at this tick [1], the command of the last tick (-1 to 1)
     reward       minus the absolute error of the counted contraction ratio, in per cent
+    two muscles  action (2,), one for each, the first for positive angles; observation (5,): angle [rad], its speed,
+                 the target [rad], both commands; reward minus the error in hundredths of a rad; no load hangs
     truncated    at the end of `duration`, after one step less than it has ticks; terminated where the simulation
                  cannot go on
 
@@ -57,10 +59,11 @@ class Env(Base):
     metadata = {"render_modes": []}
     render_mode = None
 
-    def __init__(self, rig="thesis", loads_kg=(8.0, 23.0), target=None, duration_s=12.0, jitter=0.0):
-        """`rig`, `target` (as in scenario files): one, a list of which each episode draws one, or a function that makes
-        one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s. `loads_kg`: between these
-        each episode draws its load. `jitter`: root mean square of what shakes the reading, as a contraction ratio [1].
+    def __init__(self, rig="thesis", loads_kg=None, target=None, duration_s=12.0, jitter=0.0):
+        """`rig`, `target` (as in scenario files; of a pair an angle): one, a list of which each episode draws one, or a
+        function that makes one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s, of a
+        pair from -15 to 15 deg. `loads_kg`: between these each episode draws its load, (8.0, 23.0) if left out.
+        `jitter`: root mean square of what shakes the reading, as a contraction ratio [1] or an angle [rad].
         Raises InputError, ValueError."""
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
         self.action_space, self.observation_space = (Box(*ends) for ends in (self.task.acted, self.task.observed))
@@ -72,7 +75,8 @@ class Env(Base):
     def history(self):
         """The episode so far, a numpy array for each key, to be plotted: time_s, target, contraction_ratio as counted,
         command in the rig's unit, reward; a row for each step."""
-        keys = ("time_s", "target", "contraction_ratio", "command", "reward")
+        commands = ("command", "opposite_command") if self.task.pair else ("command",)
+        keys = ("time_s", "target", self.task.reads, *commands, "reward")
         return dict(zip(keys, numpy.array(self.rows, dtype=float).reshape(-1, len(keys)).T))
 
     @property
@@ -82,7 +86,7 @@ class Env(Base):
 
     @property
     def target(self):
-        """Of this episode, tick by tick [1]; before the first one that of all, if there is one."""
+        """Of this episode, tick by tick [1] or [rad]; before the first one that of all, if there is one."""
         return self.episode.target if self.episode else self.task.fixed
 
     def reset(self, *, seed=None, options=None):
@@ -94,7 +98,7 @@ class Env(Base):
         self.episode = Episode(self.task, self.np_random, options)
         self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
         self.rows = []
-        return self.episode.begin(self.ride.reading.contraction_ratio), dict(self.episode.info)
+        return self.episode.begin(getattr(self.ride.reading, self.task.reads)), dict(self.episode.info)
 
     def step(self, action):
         """A tick: (observation, reward, terminated, truncated, info)."""
@@ -102,17 +106,18 @@ class Env(Base):
             raise RuntimeError("reset comes before the first step")
         if self.episode.over():
             raise RuntimeError("the episode has ended; reset begins another one")
-        command = self.episode.command(float(actions_of(action, (1,))[0]))
+        commands = self.episode.commands(actions_of(action, self.action_space.shape).tolist())
         unit = self.episode.rig.command_unit
-        info = {"current_mA" if unit == "mA" else f"command_{unit}": command}
+        name = "current" if unit == "mA" else "command"
+        info = {f"{name}{muscle}_{unit}": command for muscle, command in zip(("_1", "_2") if self.task.pair else ("",), commands)}
         terminated = False
         try:
-            self.ride.step(command)
+            self.ride.step(**dict(zip(("command", "opposite_command"), commands)))
         except NumericalFailure as failure:
             terminated, info["failure"] = True, str(failure)
-        observation, reward, truncated = self.episode.arrive(self.ride.reading.contraction_ratio)
+        observation, reward, truncated = self.episode.arrive(getattr(self.ride.reading, self.task.reads))
         info.update(time_s=self.ride.time_s, true_contraction_ratio=float(self.ride.state[0]))
-        self.rows.append((self.ride.time_s, self.episode.target[self.episode.tick], self.episode.last, command, reward))
+        self.rows.append((self.ride.time_s, self.episode.target[self.episode.tick], self.episode.last, *commands, reward))
         return observation, reward, terminated, truncated, info
 
     def render(self):
@@ -137,10 +142,13 @@ class VectorEnv(VectorBase):
 
     render_mode = None
 
-    def __init__(self, num_envs=1, rig="thesis", loads_kg=(8.0, 23.0), target=None, duration_s=12.0, jitter=0.0,
+    def __init__(self, num_envs=1, rig="thesis", loads_kg=None, target=None, duration_s=12.0, jitter=0.0,
                  autoreset_mode=AutoresetMode.NEXT_STEP, threads=1):
         """As Env; rigs of one batch have the same tick and are commanded in the same unit."""
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
+        if self.task.pair:
+            raise ValueError("rig: a VectorEnv is of rigs with one muscle; make one Env for each pair, such as by "
+                             "gymnasium.make_vec(..., vectorization_mode='async')")
         for name, value, least in (("num_envs", num_envs, 1), ("threads", threads, 0)):
             if not isinstance(value, numbers.Integral) or value < least:
                 raise ValueError(f"{name} = {value!r}: a whole number, {least} at least")
@@ -188,9 +196,9 @@ class VectorEnv(VectorBase):
             raise RuntimeError("reset comes before the first step")
         if self.autoreset_mode == AutoresetMode.DISABLED and self.ended.any():
             raise RuntimeError("an episode has ended; reset(options={'reset_mask': ...}) begins another one")
-        actions = actions_of(actions, (self.num_envs, 1))[:, 0]
+        actions = actions_of(actions, (self.num_envs, 1)).tolist()
         waiting, infos = self.ended.copy(), {}
-        self.batch.step([one.command(action) for one, action in zip(self.episodes, actions)])
+        self.batch.step([one.commands(action)[0] for one, action in zip(self.episodes, actions)])
         rewards = numpy.zeros(self.num_envs)
         terminations, truncations = (numpy.zeros(self.num_envs, dtype=bool) for _ in range(2))
         counted, failures = self.batch.contraction_ratio, self.batch.failures
@@ -265,10 +273,11 @@ def drawn_target(random):
 
 
 def _register():
-    for name, kwargs in {"Track-v0": {}, "TrackDrawn-v0": {"rig": drawn_rig, "target": drawn_target}}.items():
+    several = {"vector_entry_point": "mckibben.env:VectorEnv"}
+    for name, spec in {"Track-v0": several, "TrackDrawn-v0": {**several, "kwargs": {"rig": drawn_rig, "target": drawn_target}},
+                       "TrackPair-v0": {"kwargs": {"rig": "thesis_pair"}}}.items():
         if f"mckibben/{name}" not in gymnasium.registry:
-            gymnasium.register(id=f"mckibben/{name}", entry_point="mckibben.env:Env",
-                               vector_entry_point="mckibben.env:VectorEnv", kwargs=kwargs)
+            gymnasium.register(id=f"mckibben/{name}", entry_point="mckibben.env:Env", **spec)
 
 
 if gymnasium is not None:

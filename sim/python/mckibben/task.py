@@ -37,50 +37,66 @@ def one_of(several, random):
 
 
 class Task:
-    """What episodes have in common, and what is drawn for each."""
+    """What episodes have in common, and what is drawn for each. A rig lifts a load, or is a pair of muscles: then a
+    command for each, and what is read and wanted is the joint's angle."""
     TARGET = {"kind": "sine", "mean": 0.1, "amplitude": 0.05, "period": "4 s"}
+    PAIR_TARGET = {"kind": "sine", "mean": "0 deg", "amplitude": "15 deg", "period": "4 s"}
+    LOADS_KG, HEAVIEST = (8.0, 23.0), 500.0
     MOST, FASTEST = 0.5, 20.0  # contraction ratio [1] that no braid reaches, its speed [1/s]
-    HEAVIEST = 500.0  # load [kg]
+    MOST_RAD, FASTEST_RAD = math.pi, 100.0
 
     def __init__(self, rig, loads_kg, target, duration_s, jitter):
         for name, value in {"rig": rig, "target": target}.items():
             if isinstance(value, (list, tuple)) and not value:
                 raise ValueError(f"{name}: a list of one at least, for each episode to draw from")
+        self.pair = None  # as the first rig is
         if isinstance(rig, (list, tuple)):
             self.rig = [self.made(one) for one in rig]
         else:
             self.rig = rig if callable(rig) else self.made(rig)
+        if self.pair is None:
+            self.made(rig(numpy.random.default_rng(0)))
+        if self.pair and loads_kg is not None:
+            raise ValueError(f"loads_kg = {loads_kg!r}: must be left out; no load hangs on a pair of muscles")
+        loads_kg = self.LOADS_KG if loads_kg is None else loads_kg
         if isinstance(loads_kg, str) or numpy.shape(loads_kg) != (2,):
             raise ValueError(f"loads_kg = {loads_kg!r}: two masses are wanted, the lightest and the heaviest, such as (8.0, 23.0)")
         self.loads_kg = tuple(sorted(number(f"loads_kg[{i}]", load, 0.0, self.HEAVIEST, " kg") for i, load in enumerate(loads_kg)))
-        self.target = self.TARGET if target is None else target
+        default = self.PAIR_TARGET if self.pair else self.TARGET
+        self.target = default if target is None else target
         self.duration_s = number("duration_s", duration_s, 0.0001, 3600.0, " s")
         self.jitter = number("jitter", jitter, 0.0, 1.0)
         rigs = self.rig if isinstance(self.rig, list) else [] if callable(self.rig) else [self.rig]
         most = max((one.largest_contraction_ratio for one in rigs), default=self.MOST)
-        self.acted = numpy.float32([-1.0]), numpy.float32([1.0])
-        self.observed = (numpy.float32([-most, -self.FASTEST, -1.0, -1.0]),
-                         numpy.float32([2.0 * most, self.FASTEST, 1.0, 1.0]))
+        self.reads = "angle_rad" if self.pair else "contraction_ratio"
+        ends = numpy.ones(2 if self.pair else 1, dtype=numpy.float32)
+        self.acted = -ends, ends
+        low, high = [-most, -self.FASTEST, -1.0], [2.0 * most, self.FASTEST, 1.0]
+        if self.pair:
+            high = [self.MOST_RAD, self.FASTEST_RAD, self.MOST_RAD]
+            low = [-end for end in high]
+        self.observed = numpy.float32([*low, *-ends]), numpy.float32([*high, *ends])
         self.fixed = None
         _, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
         if isinstance(self.rig, Rig) and isinstance(self.target, dict):
             self.fixed = drawn
 
-    @staticmethod
-    def made(rig):
+    def made(self, rig):
         rig = rig if isinstance(rig, Rig) else Rig(rig)
         kind = rig.to_dict().get("mechanics", {}).get("kind", "hanging_load")
-        if kind != "hanging_load":
-            raise ValueError(f"rig: an environment is one muscle that lifts a hanging load; this rig's mechanics are {kind}. "
-                             "Step it with Ride, or run a Scenario")
+        if kind not in ("hanging_load", "pair"):
+            raise ValueError("rig: an environment is one muscle that lifts a hanging load, or a pair of muscles; this rig's "
+                             f"mechanics are {kind}. Step it with Ride, or run a Scenario")
+        if self.pair not in (None, rig.pair):
+            raise ValueError("rig: all rigs of an environment have one muscle, or all have two")
+        self.pair = rig.pair
         return rig
 
-    @staticmethod
-    def check(options, *seeds):
+    def check(self, options, *seeds):
         """Of a reset, before it changes anything; without what is of a VectorEnv."""
-        if unknown := set(options) - {"load_kg"}:
-            raise ValueError(f"options: {', '.join(sorted(map(repr, unknown)))} is unknown; there are load_kg and, of a "
-                             "VectorEnv, reset_mask")
+        if unknown := set(options) - ({"load_kg"} if not self.pair else set()):
+            raise ValueError(f"options: {', '.join(sorted(map(repr, unknown)))} is unknown; there are load_kg, of one muscle, "
+                             "and reset_mask, of a VectorEnv")
         if "load_kg" in options:
             number("options: load_kg", options["load_kg"], 0.0, Task.HEAVIEST, " kg")
         for seed in seeds:
@@ -88,19 +104,22 @@ class Task:
                 raise ValueError(f"seed = {seed!r}: must be a whole number, 0 at least, or None")
 
     def draw(self, random, options):
-        """Rig, load [kg] and target of an episode."""
+        """Rig, load [kg] (none of a pair) and target of an episode."""
         rig = one_of(self.rig, random)
         if callable(self.rig):
             rig = self.made(rig)
         target = one_of(self.target, random)
-        load_kg = float(options.get("load_kg", random.uniform(*self.loads_kg)))
+        load_kg = None if self.pair else float(options.get("load_kg", random.uniform(*self.loads_kg)))
         if self.fixed is not None:
             return rig, load_kg, self.fixed
-        unit = rig.command_unit  # whoever is to follow it: a scenario wants a controller
-        anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
-        scenario = Scenario({"rig": rig, "loads": [f"{load!r} kg" for load in sorted(set(self.loads_kg))],
-                             "target": target, "duration": f"{self.duration_s!r} s", "controllers": [anybody]})
-        return rig, load_kg, scenario.target
+        keys = {"rig": rig, "duration": f"{self.duration_s!r} s"}
+        if self.pair:  # whoever is to follow it: a scenario wants a controller
+            keys.update(targets=[{"angle": target}], controllers=[{"kind": "pid"}])
+        else:
+            unit = rig.command_unit
+            anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
+            keys.update(target=target, controllers=[anybody], loads=[f"{load!r} kg" for load in sorted(set(self.loads_kg))])
+        return rig, load_kg, Scenario(keys).target
 
 
 class Episode:
@@ -109,18 +128,19 @@ class Episode:
     def __init__(self, task, random, options):
         self.task, self.random = task, random
         self.rig, self.load_kg, self.target = task.draw(random, options)
-        self.zero, self.span = self.rig.command_range
-        self.tick, self.action, self.last = 0, -1.0, 0.0
-        self.info = {"load_kg": self.load_kg, "time_s": 0.0}
+        self.ranges = [self.rig.command_range, self.rig.opposite_command_range][:2 if task.pair else 1]
+        self.tick, self.action, self.last = 0, [-1.0] * len(self.ranges), 0.0
+        self.info = {"time_s": 0.0} if task.pair else {"load_kg": self.load_kg, "time_s": 0.0}
 
     def begin(self, counted):
         self.last = self.read(counted)
         return self.observation(0.0)
 
-    def command(self, action):
-        """What the DAC gives for an action."""
-        self.action = min(1.0, max(-1.0, action))
-        return self.rig.dac_output(self.zero + 0.5 * (self.action + 1.0) * (self.span - self.zero))
+    def commands(self, action):
+        """What the DAC gives each muscle for an action."""
+        self.action = [min(1.0, max(-1.0, one)) for one in action]
+        return [self.rig.dac_output(zero + 0.5 * (one + 1.0) * (span - zero))
+                for one, (zero, span) in zip(self.action, self.ranges)]
 
     def arrive(self, counted):
         """A tick later: observation, reward, whether it was the last tick."""
@@ -137,5 +157,5 @@ class Episode:
         return counted + jitter * self.random.standard_normal() if jitter else counted
 
     def observation(self, speed_per_s):
-        seen = numpy.float32([self.last, speed_per_s, self.target[self.tick], self.action])
+        seen = numpy.float32([self.last, speed_per_s, self.target[self.tick], *self.action])
         return numpy.clip(seen, *self.task.observed)
