@@ -224,6 +224,9 @@ class VectorEnv(unittest.TestCase):
             observations, rewards, terminations, truncations, infos = many.step([[0.2], [0.1], [-0.1]])
             rows = [env.step([a]) for env, a in zip(alone, (0.2, 0.1, -0.1))]
             numpy.testing.assert_allclose(rewards, [row[1] for row in rows], atol=0.1)
+            for key, value in rows[0][4].items():
+                self.assertTrue(infos["_" + key].all())
+                numpy.testing.assert_allclose(infos[key], [row[4][key] for row in rows], rtol=0, atol=1e-5, err_msg=key)
         self.assertTrue(truncations.all())
         self.assertEqual((observations.dtype, observations.shape), (numpy.float32, (3, 4)))
         self.assertIn(observations, many.observation_space)
@@ -247,6 +250,9 @@ class VectorEnv(unittest.TestCase):
         same_step = mckibben.VectorEnv(2, duration_s=0.12, autoreset_mode=mode.SAME_STEP)
         begun, _, _, _, infos = until_ended(same_step)
         self.assertTrue(infos["_final_obs"].all() and infos["_final_info"].all())
+        self.assertEqual({key for key in infos["final_info"] if key[0] != "_"}, {"current_mA", "true_contraction_ratio", "time_s"})
+        self.assertEqual(infos["final_info"]["time_s"].tolist(), [0.108, 0.108])
+        self.assertEqual((infos["time_s"].tolist(), infos["_current_mA"].any()), ([0.0, 0.0], False))
         numpy.testing.assert_array_equal(infos["final_obs"][0], last[0])
         self.assertFalse(numpy.array_equal(begun[0], last[0]))
         self.assertFalse(same_step.step([0.0, 0.0])[3].any())

@@ -98,7 +98,7 @@ class Env(Base):
         self.episode = Episode(self.task, self.np_random, options)
         self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
         self.rows = []
-        return self.episode.begin(getattr(self.ride.reading, self.task.reads)), dict(self.episode.info)
+        return self.task.observation(self.episode.begin(self._counted())), dict(self.episode.info)
 
     def step(self, action):
         """A tick: (observation, reward, terminated, truncated, info)."""
@@ -107,18 +107,19 @@ class Env(Base):
         if self.episode.over():
             raise RuntimeError("the episode has ended; reset begins another one")
         commands = self.episode.commands(actions_of(action, self.action_space.shape).tolist())
-        unit = self.episode.rig.command_unit
-        name = "current" if unit == "mA" else "command"
-        info = {f"{name}{muscle}_{unit}": command for muscle, command in zip(("_1", "_2") if self.task.pair else ("",), commands)}
+        info = dict(zip(self.task.command_names(self.episode.rig.command_unit), commands))
         terminated = False
         try:
             self.ride.step(**dict(zip(("command", "opposite_command"), commands)))
         except NumericalFailure as failure:
             terminated, info["failure"] = True, str(failure)
-        observation, reward, truncated = self.episode.arrive(getattr(self.ride.reading, self.task.reads))
+        seen, reward, truncated = self.episode.arrive(self._counted())
         info.update(time_s=self.ride.time_s, true_contraction_ratio=float(self.ride.state[0]))
         self.rows.append((self.ride.time_s, self.episode.target[self.episode.tick], self.episode.last, *commands, reward))
-        return observation, reward, terminated, truncated, info
+        return self.task.observation(seen), reward, terminated, truncated, info
+
+    def _counted(self):
+        return getattr(self.ride.reading, self.task.reads)
 
     def render(self):
         """Nothing is drawn."""
@@ -198,24 +199,31 @@ class VectorEnv(VectorBase):
             raise RuntimeError("an episode has ended; reset(options={'reset_mask': ...}) begins another one")
         actions = actions_of(actions, (self.num_envs, 1)).tolist()
         waiting, infos = self.ended.copy(), {}
-        self.batch.step([one.commands(action)[0] for one, action in zip(self.episodes, actions)])
+        commands = numpy.array([one.commands(action)[0] for one, action in zip(self.episodes, actions)])
+        self.batch.step(commands)
         rewards = numpy.zeros(self.num_envs)
         terminations, truncations = (numpy.zeros(self.num_envs, dtype=bool) for _ in range(2))
-        counted, failures = self.batch.contraction_ratio, self.batch.failures
-        for i in numpy.flatnonzero(~waiting):
-            self.observations[i], rewards[i], truncations[i] = self.episodes[i].arrive(counted[i])
-            terminations[i] = i in failures
-            self._note(infos, i, {"time_s": self.episodes[i].tick * self.episodes[i].rig.tick_s})
-            if terminations[i]:
-                self._note(infos, i, {"failure": failures[i]})
+        counted, failures = self.batch.contraction_ratio.tolist(), self.batch.failures
+        moved = numpy.flatnonzero(~waiting).tolist()
+        if moved:
+            seen, rewards[moved], truncations[moved] = zip(*(self.episodes[i].arrive(counted[i]) for i in moved))
+            self.observations[moved] = self.task.observation(seen)
+            failed = [i for i in moved if i in failures]
+            terminations[failed] = True
+            name, = self.task.command_names(self.episodes[0].rig.command_unit)
+            self._note(infos, moved, {name: commands[moved], "true_contraction_ratio": self.batch.state[moved, 0],
+                                      "time_s": numpy.array([self.episodes[i].tick * self.episodes[i].tick_s for i in moved])})
+            self._note(infos, failed, {"failure": [failures[i] for i in failed]})
         self.ended = terminations | truncations
         if self.autoreset_mode == AutoresetMode.SAME_STEP:
             waiting = self.ended
-            final = {}
-            for i in numpy.flatnonzero(waiting):
-                self._note(infos, i, {"final_obs": self.observations[i].copy()})
-                self._note(final, i, {"time_s": infos["time_s"][i]})
-            if final:
+            if waiting.any():
+                ended, final = numpy.flatnonzero(waiting), {}
+                for key in [key for key in infos if not key.startswith("_")]:
+                    has = infos["_" + key] & waiting
+                    self._note(final, numpy.flatnonzero(has), {key: infos[key][has]})
+                    infos["_" + key] &= ~waiting
+                self._note(infos, ended, {"final_obs": [self.observations[i].copy() for i in ended]})
                 infos["final_info"], infos["_final_info"] = final, waiting.copy()
         if self.autoreset_mode != AutoresetMode.DISABLED and waiting.any():
             self._begin(numpy.flatnonzero(waiting), {}, infos)
@@ -237,22 +245,29 @@ class VectorEnv(VectorBase):
             self.observations = numpy.zeros(self.observation_space.shape, dtype=numpy.float32)
         else:
             self.batch.restart(which, rigs, loads_kg)
-        counted = self.batch.contraction_ratio
-        for i in which:
-            self.observations[i] = self.episodes[i].begin(counted[i])
-            self._note(infos, i, self.episodes[i].info)
+        counted = self.batch.contraction_ratio.tolist()
+        self.observations[which] = self.task.observation([self.episodes[i].begin(counted[i]) for i in which])
+        for key in self.episodes[which[0]].info:
+            self._note(infos, which, {key: numpy.array([self.episodes[i].info[key] for i in which])})
         self.ended = self.ended.copy()
         self.ended[which] = False
         return self.observations
 
-    def _note(self, infos, member, info):
-        """Gymnasium's infos: an array for each key, and behind an underscore who has it."""
-        for key, value in info.items():
+    def _note(self, infos, which, info):
+        """Gymnasium's infos: an array for each key, and behind an underscore who has it. Of these members: arrays of
+        numbers, or lists of anything."""
+        for key, values in info.items():
+            if not len(values):
+                continue
             if key not in infos:
-                number = isinstance(value, float)
-                infos[key] = numpy.zeros(self.num_envs) if number else numpy.full(self.num_envs, None, dtype=object)
-                infos["_" + key] = numpy.zeros(self.num_envs, dtype=bool)
-            infos[key][member], infos["_" + key][member] = value, True
+                kind = values.dtype if isinstance(values, numpy.ndarray) else object
+                infos[key], infos["_" + key] = numpy.zeros(self.num_envs, dtype=kind), numpy.zeros(self.num_envs, dtype=bool)
+            if infos[key].dtype == object:
+                for i, value in zip(which, values):
+                    infos[key][i] = value
+            else:
+                infos[key][which] = values
+            infos["_" + key][which] = True
 
 
 def drawn_rig(random):

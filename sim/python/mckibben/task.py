@@ -103,6 +103,15 @@ class Task:
             if seed is not None and (not isinstance(seed, numbers.Integral) or seed < 0):
                 raise ValueError(f"seed = {seed!r}: must be a whole number, 0 at least, or None")
 
+    def observation(self, seen):
+        """Of an episode, or of many."""
+        return numpy.clip(numpy.float32(seen), *self.observed)
+
+    def command_names(self, unit):
+        """What infos call the command of each muscle."""
+        name = "current" if unit == "mA" else "command"
+        return [f"{name}{muscle}_{unit}" for muscle in (("_1", "_2") if self.pair else ("",))]
+
     def draw(self, random, options):
         """Rig, load [kg] (none of a pair) and target of an episode."""
         rig = one_of(self.rig, random)
@@ -123,18 +132,19 @@ class Task:
 
 
 class Episode:
-    """Where one stands: its numbers as they are read, and rewarded."""
+    """Where one is: what is read and rewarded. Plain numbers: a VectorEnv makes arrays of many at once."""
 
     def __init__(self, task, random, options):
         self.task, self.random = task, random
         self.rig, self.load_kg, self.target = task.draw(random, options)
+        self.wanted, self.tick_s = self.target.tolist(), self.rig.tick_s
         self.ranges = [self.rig.command_range, self.rig.opposite_command_range][:2 if task.pair else 1]
         self.tick, self.action, self.last = 0, [-1.0] * len(self.ranges), 0.0
         self.info = {"time_s": 0.0} if task.pair else {"load_kg": self.load_kg, "time_s": 0.0}
 
     def begin(self, counted):
         self.last = self.read(counted)
-        return self.observation(0.0)
+        return self.seen(0.0)
 
     def commands(self, action):
         """What the DAC gives each muscle for an action."""
@@ -143,19 +153,18 @@ class Episode:
                 for one, (zero, span) in zip(self.action, self.ranges)]
 
     def arrive(self, counted):
-        """A tick later: observation, reward, whether it was the last tick."""
+        """A tick later: what is seen, reward, whether it was the last tick."""
         self.tick += 1
         before, self.last = self.last, self.read(counted)
-        reward = -100.0 * abs(self.last - self.target[self.tick])
-        return self.observation((self.last - before) / self.rig.tick_s), float(reward), self.over()
+        reward = -100.0 * abs(self.last - self.wanted[self.tick])
+        return self.seen((self.last - before) / self.tick_s), reward, self.over()
 
     def over(self):
-        return self.tick + 1 >= len(self.target)
+        return self.tick + 1 >= len(self.wanted)
 
     def read(self, counted):
         jitter = self.task.jitter
         return counted + jitter * self.random.standard_normal() if jitter else counted
 
-    def observation(self, speed_per_s):
-        seen = numpy.float32([self.last, speed_per_s, self.target[self.tick], *self.action])
-        return numpy.clip(seen, *self.task.observed)
+    def seen(self, speed_per_s):
+        return [self.last, speed_per_s, self.wanted[self.tick], *self.action]
