@@ -104,6 +104,9 @@ class Env(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, said):
                     make(**{key: value})
         for make in (mckibben.Env, mckibben.VectorEnv):
+            make(render_mode=None)
+            with self.assertRaisesRegex(ValueError, "render_mode = 'human': must be None"):
+                make(render_mode="human")
             refused, other = make(), make()
             for each in (refused, other):
                 each.reset(seed=3)

@@ -34,6 +34,11 @@ def _mode(given):
     raise ValueError(f"autoreset_mode: {given!r} is none of {', '.join(mode.name for mode in AutoresetMode)}")
 
 
+def _no_rendering(mode):
+    if mode is not None:
+        raise ValueError(f"render_mode = {mode!r}: must be None; nothing is rendered, plot env.unwrapped.history")
+
+
 class Env(Base):
     """Follow a target with an unknown load: an episode is one run.
 
@@ -59,12 +64,13 @@ class Env(Base):
     metadata = {"render_modes": []}
     render_mode = None
 
-    def __init__(self, rig="thesis", loads_kg=None, target=None, duration_s=12.0, jitter=0.0):
+    def __init__(self, rig="thesis", loads_kg=None, target=None, duration_s=12.0, jitter=0.0, render_mode=None):
         """`rig`, `target` (as in scenario files; of a pair an angle): one, a list of which each episode draws one, or a
         function that makes one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s, of a
         pair from -15 to 15 deg. `loads_kg`: between these each episode draws its load, (8.0, 23.0) if left out.
         `jitter`: root mean square of what shakes the reading, as a contraction ratio [1] or an angle [rad].
-        Raises InputError, ValueError."""
+        Nothing is rendered: plot `history`. Raises InputError, ValueError."""
+        _no_rendering(render_mode)
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
         self.action_space, self.observation_space = (Box(*ends) for ends in (self.task.acted, self.task.observed))
         self.loads_kg = self.task.loads_kg
@@ -74,7 +80,7 @@ class Env(Base):
     @property
     def history(self):
         """The episode so far, a numpy array for each key, to be plotted: time_s, target, contraction_ratio as counted,
-        command in the rig's unit, reward; a row for each step."""
+        command in the rig's unit, reward; a row for each step. Behind Gymnasium's wrappers: env.unwrapped.history."""
         commands = ("command", "opposite_command") if self.task.pair else ("command",)
         keys = ("time_s", "target", self.task.reads, *commands, "reward")
         return dict(zip(keys, numpy.array(self.rows, dtype=float).reshape(-1, len(keys)).T))
@@ -144,8 +150,9 @@ class VectorEnv(VectorBase):
     render_mode = None
 
     def __init__(self, num_envs=1, rig="thesis", loads_kg=None, target=None, duration_s=12.0, jitter=0.0,
-                 autoreset_mode=AutoresetMode.NEXT_STEP, threads=1):
+                 autoreset_mode=AutoresetMode.NEXT_STEP, threads=1, render_mode=None):
         """As Env; rigs of one batch have the same tick and are commanded in the same unit."""
+        _no_rendering(render_mode)
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
         if self.task.pair:
             raise ValueError("rig: a VectorEnv is of rigs with one muscle; make one Env for each pair, such as by "
