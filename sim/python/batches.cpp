@@ -76,6 +76,10 @@ void add_batch(py::module_& module) {
           "muscle pressure [Pa], bristles [m].")
       .def_property_readonly("failures", &Batch::failures, "Why rigs could not go on, by their index.")
       .def_property_readonly("time_s", &Batch::now_s, "Now [s].")
+      .def("__repr__",
+           [](const Batch& batch) {
+             return fmt::format("<mckibben.Batch at {:.6f} s: {} rigs>", batch.now_s(), batch.rigs());
+           })
       .def("__len__", &Batch::rigs);
 }
 

@@ -217,7 +217,11 @@ void add_rides(py::module_& module) {
           "it "
           "changes with every step, copy what you keep.")
       .def_property_readonly("moment", &moment_of, "Forces [N], flows [kg/s] and more at this instant.")
-      .def_property_readonly("rig", &Ride::rig, "Its rig.");
+      .def_property_readonly("rig", &Ride::rig, "Its rig.")
+      .def("__repr__", [](const Ride& ride) {
+        return fmt::format("<mckibben.Ride at {:.6f} s: {}>", ride.shown().time_s,
+                           ride.load_kg() ? fmt::format("{:g} kg", *ride.load_kg()) : "two muscles");
+      });
 }
 
 }  // namespace mckibben::python

@@ -125,6 +125,16 @@ class Env(unittest.TestCase):
             env.step([0.0])
         with self.assertRaises(mckibben.InputError):
             mckibben.Env(target={"kind": "sine"})
+        with self.assertRaisesRegex(ValueError, "duration_s = 0.012: must be two ticks at least, of 0.012 s"):
+            mckibben.Env(duration_s=0.012)
+        self.assertEqual(env.reset(seed=numpy.int64(3))[1], env.reset(seed=3)[1])
+
+        def fails(**commands):
+            raise mckibben.NumericalFailure("too stiff")
+        env.ride = types.SimpleNamespace(step=fails, reading=env.ride.reading, state=[0.0], time_s=0.0)
+        self.assertEqual(env.step([0.0])[2:4], (True, False))
+        with self.assertRaisesRegex(RuntimeError, "the episode has ended"):
+            env.step([0.0])
 
     def test_rigs_and_targets_are_drawn_from_the_seed(self):
         env = mckibben.Env(rig=mckibben.env.drawn_rig, target=mckibben.env.drawn_target, duration_s=1.2)

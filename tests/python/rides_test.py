@@ -239,6 +239,13 @@ class Batches(unittest.TestCase):
         self.assertEqual(other.time_s, one.time_s)
         self.assertEqual(other.contraction_ratio.tolist(), one.contraction_ratio.tolist())
 
+    def test_says_what_it_is(self):
+        batch, ride = mckibben.Batch("thesis", self.LOADS), mckibben.Ride(load_kg=9.5)
+        for each in (batch, ride):
+            each.step(9.0)
+        self.assertEqual((repr(batch), repr(ride)),
+                         ("<mckibben.Batch at 0.012000 s: 40 rigs>", "<mckibben.Ride at 0.012000 s: 9.5 kg>"))
+
     def test_one_that_fails_fails_alone(self):
         soft = mckibben.Rig({"muscle": {"stop_stiffness": "1000 N/m", "stop_damping": "0 s/m"}})
         batch = mckibben.Batch([mckibben.Rig(), soft, mckibben.Rig()], [11.0, 400.0, 11.0])

@@ -75,7 +75,7 @@ class Env(Base):
         self.action_space, self.observation_space = (Box(*ends) for ends in (self.task.acted, self.task.observed))
         self.loads_kg = self.task.loads_kg
         self.episode = self.ride = None
-        self.rows = []
+        self.rows, self.ended = [], False
 
     @property
     def history(self):
@@ -100,17 +100,17 @@ class Env(Base):
         {"load_kg": ...}. The same seed, the same episode."""
         options = options or {}
         self.task.check(options, seed)
-        super().reset(seed=seed)
+        super().reset(seed=None if seed is None else int(seed))  # Gymnasium takes no whole number of NumPy's
         self.episode = Episode(self.task, self.np_random, options)
         self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
-        self.rows = []
+        self.rows, self.ended = [], False
         return self.task.observation(self.episode.begin(self._counted())), dict(self.episode.info)
 
     def step(self, action):
         """A tick: (observation, reward, terminated, truncated, info)."""
         if self.ride is None:
             raise RuntimeError("reset comes before the first step")
-        if self.episode.over():
+        if self.ended:
             raise RuntimeError("the episode has ended; reset begins another one")
         commands = self.episode.commands(actions_of(action, self.action_space.shape).tolist())
         info = dict(zip(self.task.command_names(self.episode.rig.command_unit), commands))
@@ -120,6 +120,7 @@ class Env(Base):
         except NumericalFailure as failure:
             terminated, info["failure"] = True, str(failure)
         seen, reward, truncated = self.episode.arrive(self._counted())
+        self.ended = terminated or truncated
         info.update(time_s=self.ride.time_s, true_contraction_ratio=float(self.ride.state[0]))
         self.rows.append((self.ride.time_s, self.episode.target[self.episode.tick], self.episode.last, *commands, reward))
         return self.task.observation(seen), reward, terminated, truncated, info
@@ -188,7 +189,8 @@ class VectorEnv(VectorBase):
         if mask is not None:
             mask = numpy.asarray(mask)
             if mask.shape != (self.num_envs,) or mask.dtype != bool or not mask.any():
-                raise ValueError("reset_mask: a boolean for each member, one of them true")
+                raise ValueError(f"reset_mask = {mask.tolist()}: must be a boolean for each of {self.num_envs} members, one of "
+                                 "them true")
         if self.batch is None or mask is None:
             mask = numpy.ones(self.num_envs, dtype=bool)
         for i in numpy.flatnonzero(mask):

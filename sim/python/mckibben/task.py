@@ -77,7 +77,9 @@ class Task:
             low = [-end for end in high]
         self.observed = numpy.float32([*low, *-ends]), numpy.float32([*high, *ends])
         self.fixed = None
-        _, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
+        rig, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
+        if len(drawn) < 2:
+            raise ValueError(f"duration_s = {duration_s!r}: must be two ticks at least, of {rig.tick_s:g} s each")
         if isinstance(self.rig, Rig) and isinstance(self.target, dict):
             self.fixed = drawn
 
