@@ -219,7 +219,7 @@ void add_rides(py::module_& module) {
       .def_property_readonly("moment", &moment_of, "Forces [N], flows [kg/s] and more at this instant.")
       .def_property_readonly("rig", &Ride::rig, "Its rig.")
       .def("__repr__", [](const Ride& ride) {
-        return fmt::format("<mckibben.Ride at {:.6f} s: {}>", ride.shown().time_s,
+        return fmt::format("{} at {:.6f} s: {}>", "<mckibben.Ride", ride.shown().time_s,
                            ride.load_kg() ? fmt::format("{:g} kg", *ride.load_kg()) : "two muscles");
       });
 }
