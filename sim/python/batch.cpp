@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <sim/python/batch.hpp>
-#include <sim/python/inputs.hpp>
 #include <sim/python/long_work.hpp>
 #include <sim/python/pickles.hpp>
 #include <sim/run/batch.hpp>

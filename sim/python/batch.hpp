@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <plant/instruments.hpp>
-#include <sim/python/module.hpp>
+#include <sim/python/inputs.hpp>
 #include <sim/python/turn.hpp>
 #include <sim/ride/vector_ride.hpp>
 
@@ -17,8 +17,6 @@ namespace mckibben::python {
 
 class Batch {
  public:
-  using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
   /// Settled at 0 s, no pressure asked for. Throws py::value_error for rigs that do not go together.
   Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads);
 

@@ -6,25 +6,31 @@
 #include <fmt/format.h>
 
 #include <sim/python/batch.hpp>
-#include <sim/python/inputs.hpp>
 
 namespace mckibben::python {
 
 void add_batch(py::module_& module) {
-  using Some = std::optional<Batch::Numbers>;
-  const auto given = [](const Batch& batch, Some command, Some current_mA) {
-    command = either(command, current_mA, batch.command_unit());
-    if (!command) throw py::type_error("command is missing");
-    return *command;
+  using Any = const py::object&;
+  const auto some = [](const Batch& batch, Any command, Any current_mA) {
+    return either(numbers_of(command, "command", name_of(batch.command_unit())),
+                  numbers_of(current_mA, "current_mA", "mA"), batch.command_unit());
   };
+  const auto given = [some](const Batch& batch, Any command, Any current_mA) {
+    const auto commands = some(batch, command, current_mA);
+    if (!commands) throw py::type_error("command is missing");
+    return *commands;
+  };
+  const auto loads_of = [](Any loads_kg) { return numbers_of(loads_kg, "loads_kg", "kg"); };
   py::class_<Batch>(module, "Batch",
                     "Many rigs with a load each, stepped together, each under its own command.")
       .def(py::pickle([](const Batch& batch) { return batch.pickled(); }, &Batch::unpickled))
-      .def(py::init([](const py::object& rigs, const py::object& loads_kg, int threads) {
+      .def(py::init([loads_of](Any rigs, Any loads_kg, int threads) {
              if (threads < 0)
                throw py::value_error(
                    fmt::format("threads = {}: must be 0, as many as the machine has, or more", threads));
-             return std::make_unique<Batch>(rigs, loads_of(loads_kg), static_cast<unsigned>(threads));
+             const auto loads = loads_of(loads_kg);
+             if (!loads) throw py::type_error("loads_kg is missing");
+             return std::make_unique<Batch>(rigs, *loads, static_cast<unsigned>(threads));
            }),
            py::arg("rigs"), py::arg("loads_kg"), py::arg("threads") = 1,
            "One Rig (or what makes one) with a load [kg] each, shape (n,), or a list of n rigs with one "
@@ -35,14 +41,14 @@ void add_batch(py::module_& module) {
            "the lower ends of their lines.")
       .def(
           "start",
-          [](Batch& batch, Some command, Some current_mA) {
-            batch.start(either(command, current_mA, batch.command_unit()));
+          [some](Batch& batch, Any command, Any current_mA) {
+            batch.start(some(batch, command, current_mA));
           },
           py::arg("command") = py::none(), py::kw_only(), py::arg("current_mA") = py::none(),
           "Settled at 0 s under these commands, one or n, in what the rigs' valves take.")
       .def(
           "step",
-          [given](Batch& batch, Some command, Some current_mA) {
+          [given](Batch& batch, Any command, Any current_mA) {
             batch.step(given(batch, command, current_mA));
           },
           py::arg("command") = py::none(), py::kw_only(), py::arg("current_mA") = py::none(),
@@ -50,9 +56,9 @@ void add_batch(py::module_& module) {
           "in `failures`; the others go on.")
       .def(
           "restart",
-          [](Batch& batch, const std::vector<std::size_t>& which, const py::object& rigs,
-             const py::object& loads_kg, const Some& command) {
-            batch.restart(which, rigs, loads_kg.is_none() ? Some() : loads_of(loads_kg), command);
+          [some, loads_of](Batch& batch, const std::vector<std::size_t>& which, Any rigs, Any loads_kg,
+                           Any command) {
+            batch.restart(which, rigs, loads_of(loads_kg), some(batch, command, py::none()));
           },
           py::arg("which"), py::arg("rigs") = py::none(), py::arg("loads_kg") = py::none(),
           py::arg("command") = py::none(),
@@ -60,7 +66,7 @@ void add_batch(py::module_& module) {
           "`loads_kg`: in place of theirs, one for each; `command`: one or n, of all the batch.")
       .def(
           "follow",
-          [given](Batch& batch, Some command, const py::object& progress, Some current_mA) {
+          [given](Batch& batch, Any command, Any progress, Any current_mA) {
             return batch.follow(given(batch, command, current_mA), progress);
           },
           py::arg("command") = py::none(), py::arg("progress") = py::none(), py::kw_only(),

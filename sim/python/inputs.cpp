@@ -37,19 +37,19 @@ double command_within(double value, const plant::Rig& rig, const std::string& na
                 std::string(name_of(rig.command_unit())));
 }
 
-std::optional<double> load_of(const py::object& given) {
+std::optional<double> number_of(const py::object& given, const char* name, std::string_view unit) {
   if (given.is_none()) return {};
-  const double load_kg = PyFloat_AsDouble(given.ptr());
-  if (PyErr_Occurred() == nullptr) return load_kg;
+  const double number = PyFloat_AsDouble(given.ptr());
+  if (PyErr_Occurred() == nullptr) return number;
   PyErr_Clear();
-  throw py::type_error("load_kg = " + repr_of(given) + ": must be a mass in kg, as a number");
+  throw py::type_error(fmt::format("{} = {}: must be a number, in {}", name, repr_of(given), unit));
 }
 
-py::array_t<double, py::array::c_style | py::array::forcecast> loads_of(const py::object& given) {
-  const auto loads_kg = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
-  if (!loads_kg || py::isinstance<py::str>(given))
-    throw py::type_error("loads_kg = " + repr_of(given) + ": must be masses in kg, as numbers");
-  return loads_kg;
+std::optional<Numbers> numbers_of(const py::object& given, const char* name, std::string_view unit) {
+  if (given.is_none()) return {};
+  if (!py::isinstance<py::str>(given))
+    if (auto numbers = Numbers::ensure(given)) return numbers;
+  throw py::type_error(fmt::format("{} = {}: must be numbers, in {}", name, repr_of(given), unit));
 }
 
 double load_within(double load_kg, const plant::Rig& rig, const std::string& name) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
@@ -38,10 +39,12 @@ inline bool is_command(double value, const plant::Rig& rig) {
 /// One that it can give. Throws py::value_error.
 double command_within(double value, const plant::Rig& rig, const std::string& name);
 
-/// A load [kg], or several, as Python gave them. Throws py::type_error for what is no number.
-std::optional<double> load_of(const py::object& given);
-py::array_t<double, py::array::c_style | py::array::forcecast> loads_of(const py::object& given);
-/// One that can hang on the rig. Throws py::value_error.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// A number, or several, as Python gave them; none for None. Throws py::type_error for what is none, with its
+/// name and the unit that is wanted.
+std::optional<double> number_of(const py::object& given, const char* name, std::string_view unit);
+std::optional<Numbers> numbers_of(const py::object& given, const char* name, std::string_view unit);
+/// A load that can hang on the rig. Throws py::value_error.
 double load_within(double load_kg, const plant::Rig& rig, const std::string& name);
 
 /// Every field of a rig, as JSON; what has the same is the same rig.

@@ -112,13 +112,18 @@ void add_rides(py::module_& module) {
   never_changes(saved);
   saved.def(py::pickle(&pickled_ride, &unpickled_ride));
 
-  using Number = std::optional<double>;
-  const auto given = [](const Ride& ride, Number command, Number opposite_command, Number muscle_pressure_Pa,
-                        Number opposite_muscle_pressure_Pa, Number contraction_ratio, Number current_mA,
-                        Number opposite_current_mA) {
-    return Given{either(command, current_mA, ride.command_unit()),
-                 either(opposite_command, opposite_current_mA, ride.command_unit()), muscle_pressure_Pa,
-                 opposite_muscle_pressure_Pa, contraction_ratio};
+  using Any = const py::object&;
+  const auto given = [](const Ride& ride, Any command, Any opposite_command, Any muscle_pressure_Pa,
+                        Any opposite_muscle_pressure_Pa, Any contraction_ratio, Any current_mA,
+                        Any opposite_current_mA) {
+    const plant::CommandUnit unit = ride.command_unit();
+    return Given{
+        either(number_of(command, "command", name_of(unit)), number_of(current_mA, "current_mA", "mA"), unit),
+        either(number_of(opposite_command, "opposite_command", name_of(unit)),
+               number_of(opposite_current_mA, "opposite_current_mA", "mA"), unit),
+        number_of(muscle_pressure_Pa, "muscle_pressure_Pa", "Pa"),
+        number_of(opposite_muscle_pressure_Pa, "opposite_muscle_pressure_Pa", "Pa"),
+        number_of(contraction_ratio, "contraction_ratio", "1")};
   };
   const auto copy = [](const Ride& ride) { return std::make_unique<Ride>(ride); };
   py::class_<Ride>(module, "Ride", "A rig that is stepped from outside.")
@@ -133,16 +138,16 @@ void add_rides(py::module_& module) {
       .def(
           "__deepcopy__", [copy](const Ride& ride, const py::dict&) { return copy(ride); }, py::arg("memo"))
       .def(py::init([](const py::object& rig, const py::object& load_kg) {
-             return std::make_unique<Ride>(rig, load_of(load_kg));
+             return std::make_unique<Ride>(rig, number_of(load_kg, "load_kg", "kg"));
            }),
            py::arg("rig") = "thesis", py::arg("load_kg") = py::none(),
            "A Rig, or what makes one, with a load [kg] on it; none on two muscles. It stands settled at 0 s, "
            "its valves at the lower ends of their lines.")
       .def(
           "start",
-          [given](Ride& ride, Number command, Number opposite_command, Number muscle_pressure_Pa,
-                  Number opposite_muscle_pressure_Pa, Number contraction_ratio, double at_s, bool settle,
-                  Number current_mA, Number opposite_current_mA) {
+          [given](Ride& ride, Any command, Any opposite_command, Any muscle_pressure_Pa,
+                  Any opposite_muscle_pressure_Pa, Any contraction_ratio, double at_s, bool settle,
+                  Any current_mA, Any opposite_current_mA) {
             ride.start(given(ride, command, opposite_command, muscle_pressure_Pa, opposite_muscle_pressure_Pa,
                              contraction_ratio, current_mA, opposite_current_mA),
                        at_s, settle);
@@ -155,13 +160,13 @@ void add_rides(py::module_& module) {
           "time under this input, which ends at `at_s` [s].")
       .def(
           "step",
-          [given](Ride& ride, Number command, Number dt_s, Number opposite_command, Number muscle_pressure_Pa,
-                  Number opposite_muscle_pressure_Pa, Number contraction_ratio, Number current_mA,
-                  Number opposite_current_mA) {
+          [given](Ride& ride, Any command, Any dt_s, Any opposite_command, Any muscle_pressure_Pa,
+                  Any opposite_muscle_pressure_Pa, Any contraction_ratio, Any current_mA,
+                  Any opposite_current_mA) {
             return ride.step(
                 given(ride, command, opposite_command, muscle_pressure_Pa, opposite_muscle_pressure_Pa,
                       contraction_ratio, current_mA, opposite_current_mA),
-                dt_s);
+                number_of(dt_s, "dt_s", "s"));
           },
           py::arg("command") = py::none(), py::arg("dt_s") = py::none(), py::kw_only(),
           py::arg("opposite_command") = py::none(), py::arg("muscle_pressure_Pa") = py::none(),
@@ -176,12 +181,14 @@ void add_rides(py::module_& module) {
           "the `Ride` is then where it stopped.")
       .def(
           "follow",
-          [](Ride& ride, std::optional<Ride::Commands> command,
-             std::optional<Ride::Commands> opposite_command, std::optional<Ride::Commands> current_mA,
-             std::optional<Ride::Commands> opposite_current_mA) {
-            command = either(command, current_mA, ride.command_unit());
-            if (!command) throw py::type_error("command is missing");
-            return ride.follow(*command, either(opposite_command, opposite_current_mA, ride.command_unit()));
+          [](Ride& ride, Any command, Any opposite_command, Any current_mA, Any opposite_current_mA) {
+            const plant::CommandUnit unit = ride.command_unit();
+            const auto one = either(numbers_of(command, "command", name_of(unit)),
+                                    numbers_of(current_mA, "current_mA", "mA"), unit);
+            if (!one) throw py::type_error("command is missing");
+            return ride.follow(*one,
+                               either(numbers_of(opposite_command, "opposite_command", name_of(unit)),
+                                      numbers_of(opposite_current_mA, "opposite_current_mA", "mA"), unit));
           },
           py::arg("command") = py::none(), py::arg("opposite_command") = py::none(), py::kw_only(),
           py::arg("current_mA") = py::none(), py::arg("opposite_current_mA") = py::none(),

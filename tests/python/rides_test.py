@@ -118,8 +118,12 @@ class Rides(unittest.TestCase):
                 bad()
         with self.assertRaises(TypeError):
             ride.step("9 mA")
-        for words, bad in (("load_kg = '8 kg': must be a mass in kg", lambda: mckibben.Ride(load_kg="8 kg")),
-                           (r"loads_kg = \['8 kg', 9.0\]: must be masses in kg", lambda: mckibben.Batch("thesis", ["8 kg", 9.0])),
+        for words, bad in (("load_kg = '8 kg': must be a number, in kg", lambda: mckibben.Ride(load_kg="8 kg")),
+                           (r"loads_kg = \['8 kg', 9.0\]: must be numbers, in kg", lambda: mckibben.Batch("thesis", ["8 kg", 9.0])),
+                           ("command = '9 mA': must be a number, in mA", lambda: ride.step("9 mA")),
+                           ("dt_s = '1 s': must be a number, in s", lambda: ride.step(9.0, "1 s")),
+                           (r"command = \['9 mA'\]: must be numbers, in mA", lambda: ride.follow(["9 mA"])),
+                           ("command = '9 mA': must be numbers, in mA", lambda: mckibben.Batch("thesis", 8.0).step("9 mA")),
                            ("rig = 3: must be a name", lambda: mckibben.Batch(["thesis", 3], 8.0))):
             with self.assertRaisesRegex(TypeError, words):
                 bad()
