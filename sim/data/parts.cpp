@@ -56,10 +56,15 @@ domain::Dataset in_parts(domain::Dataset data) {
   return data;
 }
 
+bool are_settled_points(const domain::Dataset& data) {
+  return std::ranges::all_of(
+      data.runs, [](const domain::Run& run) { return run.measured && run.measured->point_s > 0.0; });
+}
+
 bool are_branches(const domain::Dataset& data) {
+  if (!are_settled_points(data)) return false;
   bool up = false, down = false;
   for (const domain::Run& run : data.runs) {
-    if (!run.measured || run.measured->point_s == 0.0) return false;
     const auto& columns = run.measured->columns;
     const auto drive = std::ranges::find_if(columns, &domain::MeasuredColumn::given);
     if (drive == columns.end()) return false;

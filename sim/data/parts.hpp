@@ -18,6 +18,9 @@ bool has_parts(const domain::Dataset& data);
 /// way share is hysteresis then.
 bool are_branches(const domain::Dataset& data);
 
+/// Whether all rows are settled points: read at rest, at times that nobody measured.
+bool are_settled_points(const domain::Dataset& data);
+
 /// Whether a bench holds each run at a length that no other has: what is of one run alone may be its
 /// length's.
 bool have_own_lengths(const domain::Dataset& data);

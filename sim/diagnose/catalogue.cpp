@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <plant/geometry.hpp>
+#include <sim/data/parts.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/thresholds.hpp>
 
@@ -55,6 +56,7 @@ std::vector<plant::Hook> hidden(const domain::Dataset& data) {
     list = {valve_error_shift, valve_opening, supply_drop, vent_factor, command_delay, reference};
   if (data.supply_is_given()) list.push_back(supply_drop);
   if (muscle) list.insert(list.end(), {outflow, gas_exponent, muscle_heating});
+  if (data::are_settled_points(data)) list.push_back(reading_delay);
   if (data.judged() == domain::Judged::pressure)
     list.insert(list.end(), {wheel, reading_factor, reading_delay});
   return list;

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/data/amount.hpp>
+#include <sim/data/parts.hpp>
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/remarks.hpp>
 
@@ -99,8 +100,10 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
     words.push_back("the angle of a lever is read: runs are not looked through for faults of a recorder");
   if (data.pressure_is_given())
     words.push_back(fmt::format(
-        "the muscle{} the input: valve, supply, hose and gas are out of sight, and with them {}",
-        pair ? "s' pressures are" : "'s pressure is", fmt::join(effects_out_of_sight(data), ", ")));
+        "the muscle{} the input: valve, supply, hose and gas are out of sight{}, and with them {}",
+        pair ? "s' pressures are" : "'s pressure is",
+        data::are_settled_points(data) ? ", and how late readings are" : "",
+        fmt::join(effects_out_of_sight(data), ", ")));
   if (data.valve_pressure_is_given())
     words.push_back(
         fmt::format("the valve's pressure is the input: valve and supply are out of sight, and "

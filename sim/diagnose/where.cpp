@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/parts.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/diagnose/where.hpp>
 #include <sim/run/simulate.hpp>
@@ -194,12 +195,6 @@ std::vector<Factor> by_joint(const Rig& rig, const std::vector<Row>& rows) {
   return factors;
 }
 
-/// Settled points have no time that anybody measured.
-bool settled(const domain::Dataset& data) {
-  return std::ranges::all_of(
-      data.runs, [](const domain::Run& run) { return run.measured && run.measured->point_s > 0.0; });
-}
-
 std::vector<Factor> factors_of(const Experiment& experiment, const Rig& rig, const Runs& runs,
                                const std::vector<Row>& rows) {
   double longest_s = 0.0;
@@ -208,7 +203,7 @@ std::vector<Factor> factors_of(const Experiment& experiment, const Rig& rig, con
                                         experiment.data().row_s());
   const bool pair = rig.pair() != nullptr;
   auto factors = pair ? by_joint(rig, rows) : by_muscle(experiment, rig, runs);
-  if (!settled(experiment.data())) {
+  if (!data::are_settled_points(experiment.data())) {
     factors.push_back(binned("time in run", equal(0.0, longest_s, cells_by.times), 1.0, "s",
                              [](const Row& row) { return row.time_s; }));
     factors.push_back(

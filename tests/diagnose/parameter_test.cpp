@@ -30,6 +30,19 @@ TEST(Parameters, AreFoundByTheirPathThroughPartsEffectsAndLists) {
     EXPECT_THROW(find(rig, path), std::invalid_argument) << path;
 }
 
+TEST(Catalogue, PointsAtRestDoNotShowHowLateTheyWereRead) {
+  domain::Dataset data;
+  data.runs.resize(1);
+  data.runs.front().measured.emplace();
+  const auto has_delay = [&] {
+    return std::ranges::any_of(catalogue(data),
+                               [](const Candidate& c) { return c.effect == "reading_delay"; });
+  };
+  EXPECT_TRUE(has_delay());
+  data.runs.front().measured->point_s = 5.0;
+  EXPECT_FALSE(has_delay());
+}
+
 TEST(Catalogue, HoldsAllEffectsWithANameAndEveryLawMovesSomething) {
   std::set<std::string> effects;
   for (const Candidate& c : catalogue()) {
