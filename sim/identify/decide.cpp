@@ -60,7 +60,7 @@ Decision decide(const std::vector<Judged>& table) {
     if (i != decision.best && decision.mass[i] > decisive.mass) decision.rivals.push_back(i);
   std::ranges::sort(decision.rivals, std::greater{}, [&](std::size_t i) { return table[i].score; });
   // A rival that the sheet allows stands for a best one that it does not, and one that predicts better for
-  // one that does not.
+  // one that does not, if it names no more: runs that repeat each other repeat a model's error, too.
   // Before that, general terms beat the catalogue by strong evidence or not at all.
   std::size_t named = decision.best;
   for (std::size_t i = 0; i < table.size(); ++i)
@@ -70,7 +70,9 @@ Decision decide(const std::vector<Judged>& table) {
   for (const std::size_t i : decision.rivals) {
     if (!allowed(table[i]) || (table[i].general && !table[reference].general)) continue;
     const auto [nats, error] = loss(table[i].held_out, table[reference].held_out);
-    if (!allowed(table[reference]) || nats > std::max(decisive.errors * error, decisive.strong))
+    const bool adds_names = !table[reference].general && size_of(table[i]) > size_of(table[reference]);
+    if (!allowed(table[reference]) ||
+        (!adds_names && nats > std::max(decisive.errors * error, decisive.strong)))
       reference = i;
   }
   decision.chosen = reference;

@@ -23,8 +23,18 @@ double Grams::log_det() const {
   return all;
 }
 
+namespace {
+
+/// A model that errs at a point errs at its neighbours, however far apart in time.
+double usual_length_s(const Rows& rows) {
+  return std::max(decisive.error_length_s, rows.row_s);
+}
+
+}  // namespace
+
 Error::Error(const Rows& rows, const Wander& wander) : rows_(&rows) {
-  logs_ = {std::log(rows.count > 0.0 ? 0.1 * rows.count : rows.noise.front()), std::log(rows.unit), 0.0};
+  logs_ = {std::log(rows.count > 0.0 ? 0.1 * rows.count : rows.noise.front()), std::log(rows.unit),
+           std::log(usual_length_s(rows))};
   for (std::size_t kind = 1; kind < rows.kinds.size(); ++kind)
     logs_.insert(logs_.end(), {std::log(rows.noise[kind]), std::log(rows.noise[kind])});
   logs_.insert(logs_.end(), {std::log(0.03), std::log(0.3)});  // where a wander of none has no slope
@@ -289,7 +299,7 @@ bool Error::allowed() const {
 }
 
 double Error::log_prior() const {
-  const double length = (logs_[2] - std::log(decisive.error_length_s)) / decisive.error_length_sd;
+  const double length = (logs_[2] - std::log(usual_length_s(*rows_))) / decisive.error_length_sd;
   double value = -0.5 * length * length;
   for (std::size_t j = base(); j < logs_.size(); ++j)
     value -= 0.5 * (logs_[j] - start_[j]) * (logs_[j] - start_[j]);

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/data/finding.hpp>
+#include <sim/identify/gaps.hpp>
 #include <sim/identify/held_out.hpp>
 #include <sim/identify/identify.hpp>
 #include <sim/identify/search.hpp>
@@ -273,11 +274,20 @@ std::vector<std::string> Search::not_done() const {
 Identified Search::found() && {
   Identified result;
   const auto groups = groups_of(rows_);
+  // Wide intervals make the log density of a wild prediction a good one: general terms that miss unseen runs
+  // by more than the catalogue's most probable model are no law.
+  const auto missed = [&](const Model& m) { return rms(rows_, unpredicted(m, groups)); };
+  const auto counts = [](const Model& m) { return std::isfinite(m.score) && !m.hopeless; };
+  const auto is_general = [](const Model& m) { return m.point.terms != Terms::none; };
+  const Model* named = nullptr;
+  for (const auto& [key, m] : table_)
+    if (counts(m) && !is_general(m) && (named == nullptr || m.score > named->score)) named = &m;
+  const double most = named != nullptr ? missed(*named) : std::numeric_limits<double>::infinity();
   for (auto& [key, m] : table_) {
-    if (!std::isfinite(m.score) || m.hopeless) continue;
+    if (!counts(m) || (is_general(m) && missed(m) > most)) continue;
     result.table.push_back({.names = key.second,
                             .described = key.first,
-                            .general = m.point.terms != Terms::none,
+                            .general = is_general(m),
                             .score = m.score,
                             .held_out = held_out(m, groups),
                             .off_sheet = m.off_sheet()});

@@ -99,6 +99,12 @@ TEST(Decide, TakesARivalThatPredictsBetter) {
   EXPECT_EQ(decide({general, model({"bladder_elasticity", "gains_differ"}, 0.0, 0.0)}).chosen, 1U);
 }
 
+TEST(Decide, NamesNoMoreThanTheMostProbableForPredictingBetter) {
+  const Judged more = model({"encoder_backlash"}, -0.9, -1.6);
+  EXPECT_EQ(decide({model({}, 0.0, 0.0), more}).chosen, 0U);
+  EXPECT_EQ(decide({model({"gauge_error"}, 0.0, 0.0), more}).chosen, 1U);  // as many
+}
+
 TEST(Decide, AsDescribedIsTheSimplest) {
   EXPECT_EQ(decide({described(-4.0, 0.0), model({}, 0.0, 0.0)}).verdict, Verdict::nothing_missing);
 }
