@@ -15,6 +15,7 @@ struct BladderCreepOf {
                                         "Maxwell element; on creep of a muscle: Minh, Kamers, Ramon, "
                                         "Van Brussel, Mechatronics 22 (2012) 923-933";
   static constexpr std::array hooks{Hook::pull};
+  static constexpr bool in_motion = true;
   static constexpr std::array variants{
       Variant{"", "stiffness", 0.0, 100.0, Sign::positive, 0.1, "time", 0.3, 1.5, 8.0}};
   static constexpr double memory_size = 0.1;

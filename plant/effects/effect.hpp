@@ -7,6 +7,8 @@
 //   its parameters and `fields`            as every settings struct
 //   absent()                               true where the rig is the nominal one, bit for bit
 //   variants                               how a diagnosis looks for it, one entry for each law variant
+//   in_motion                              true where it depends on speed or time: points at rest do not show
+//   it
 // and those of these functions that it needs (S is double, a dual number, or lanes):
 //   S pull_N(now, memory)                  force on the load, positive upwards; `acts_on_load = true` where
 //   it

@@ -16,6 +16,7 @@ struct FrictionWarmUpOf {
                                         "running-in of rubber and thread; first-order approach to a "
                                         "steady temperature";
   static constexpr std::array hooks{Hook::friction_factor};
+  static constexpr bool in_motion = true;
   static constexpr std::array variants{
       Variant{"", "change", 0.0, -0.2, Sign::either, -2e-4, "time", 1.5, 5.0, 20.0}};
   static constexpr double memory_size = 1.0;

@@ -18,6 +18,7 @@ struct ReadingDelayOf {
           "dead time of a control loop: Astrom & Murray, Feedback Systems, Princeton 2008; the delay of a "
           "sensor's filter";
   static constexpr std::array hooks{Hook::reading_delay};
+  static constexpr bool in_motion = true;
   static constexpr std::array variants{Variant{"", "time", 0.0, 0.03, Sign::positive, 1e-3}};
 
   P time_s = 0.0;

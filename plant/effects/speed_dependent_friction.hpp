@@ -17,6 +17,7 @@ struct SpeedDependentFrictionOf {
           "Stribeck (1902); Tondu & Lopez, IEEE Control Systems Magazine 20 (2000) 15-38, "
           "three-parameter friction";
   static constexpr std::array hooks{Hook::friction_factor};
+  static constexpr bool in_motion = true;
   static constexpr std::array variants{
       Variant{"", "ratio", 1.0, -0.3, Sign::either, -3e-4, "speed", 0.005, 0.02, 0.08}};
 

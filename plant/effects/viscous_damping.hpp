@@ -15,6 +15,7 @@ struct ViscousDampingOf {
                                         "Newton's viscous friction; Armstrong-Helouvry et al., "
                                         "Automatica 30 (1994) 1083-1138";
   static constexpr std::array hooks{Hook::pull};
+  static constexpr bool in_motion = true;
   static constexpr std::array variants{Variant{"", "damping", 0.0, 50.0, Sign::positive, 0.1}};
 
   P damping_N_s_per_m = 0.0;

@@ -48,7 +48,15 @@ Candidate candidate_of(const plant::LawText& law) {
 }
 
 /// Where effects act that data leave nothing to see of: upstream of what is given, and on what was not read.
-std::vector<plant::Hook> hidden(const domain::Dataset& data) {
+/// Settled points have no speed, and no time that anybody measured.
+struct Hidden {
+  std::vector<plant::Hook> hooks{};
+  bool motion = false;
+
+  bool has(plant::Hook hook) const { return std::ranges::find(hooks, hook) != hooks.end(); }
+};
+
+Hidden hidden(const domain::Dataset& data) {
   using enum plant::Hook;
   std::vector<plant::Hook> list;
   const bool muscle = data.pressure_is_given();
@@ -56,32 +64,31 @@ std::vector<plant::Hook> hidden(const domain::Dataset& data) {
     list = {valve_error_shift, valve_opening, supply_drop, vent_factor, command_delay, reference};
   if (data.supply_is_given()) list.push_back(supply_drop);
   if (muscle) list.insert(list.end(), {outflow, gas_exponent, muscle_heating});
-  if (data::are_settled_points(data)) list.push_back(reading_delay);
   if (data.judged() == domain::Judged::pressure)
     list.insert(list.end(), {wheel, reading_factor, reading_delay});
-  return list;
+  return {list, data::are_settled_points(data)};
 }
 
 template <class E>
-bool is_hidden(const std::vector<plant::Hook>& hooks) {
-  return std::ranges::all_of(E::hooks,
-                             [&](plant::Hook hook) { return std::ranges::find(hooks, hook) != hooks.end(); });
+bool is_hidden(const Hidden& from) {
+  if constexpr (requires { E::in_motion; })
+    if (from.motion) return true;
+  return std::ranges::all_of(E::hooks, [&](plant::Hook hook) { return from.has(hook); });
 }
 
 /// Whether data of which this is hidden show a user's law.
-bool is_hidden(const plant::LawText& law, const std::vector<plant::Hook>& hooks) {
-  const auto has = [&](plant::Hook hook) { return std::ranges::find(hooks, hook) != hooks.end(); };
-  return (law.adds == plant::LawTarget::outflow && has(plant::Hook::outflow)) ||
-         (law.adds == plant::LawTarget::command && has(plant::Hook::reference));
+bool is_hidden(const plant::LawText& law, const Hidden& from) {
+  return (law.adds == plant::LawTarget::outflow && from.has(plant::Hook::outflow)) ||
+         (law.adds == plant::LawTarget::command && from.has(plant::Hook::reference));
 }
 
 }  // namespace
 
 std::vector<std::string> effects_out_of_sight(const domain::Dataset& data) {
-  const std::vector<plant::Hook> hooks = hidden(data);
+  const Hidden from = hidden(data);
   std::vector<std::string> names;
   const auto add = [&]<class E>(const E& effect) {
-    if (is_hidden<E>(hooks) && !E::variants.empty()) names.emplace_back(effect.name);
+    if (is_hidden<E>(from) && !E::variants.empty()) names.emplace_back(effect.name);
   };
   std::apply([&](const auto&... effect) { (add(effect), ...); }, plant::Effects::Table{});
   return names;
@@ -114,7 +121,7 @@ constexpr bool is_of_a_muscle() {
 
 /// What data can show of the catalogue. Of a pair, `gauge` is that of muscle 1.
 struct Sight {
-  std::vector<plant::Hook> hidden{};
+  Hidden hidden{};
   bool load_guide = true, gauge = true, opposite_gauge = false, pair = false;
 };
 
@@ -170,12 +177,12 @@ std::vector<Candidate> catalogue(const Rig& rig) {
 }
 std::vector<Candidate> catalogue(const domain::Dataset& data) {
   const bool given = data.pressure_is_given();
-  const std::vector<plant::Hook> hooks = hidden(data);
+  const Hidden from = hidden(data);
   const auto read = [&](const auto& gauge) {
     return std::ranges::any_of(data.runs, [&](const domain::Run& run) { return (run.*gauge).has_value(); });
   };
   const bool pair = data.rig.pair() != nullptr;
-  std::vector<Candidate> list = in_sight({.hidden = hooks,
+  std::vector<Candidate> list = in_sight({.hidden = from,
                                           .load_guide = !data.rig.has_angle(),
                                           .gauge = given || read(&domain::Run::muscle_pressure_Pa),
                                           .opposite_gauge = given || read(&domain::Run::opposite_pressure_Pa),
@@ -184,7 +191,7 @@ std::vector<Candidate> catalogue(const domain::Dataset& data) {
     for (Candidate& one : list)
       if (one.effect == plant::MuscleLeak::name) one.typical = leak_of_a_sealed_muscle(data);
   for (const auto& law : data.rig.effects.laws.list)
-    if (!is_hidden(*law.text, hooks)) list.push_back(candidate_of(*law.text));
+    if (!is_hidden(*law.text, from)) list.push_back(candidate_of(*law.text));
   return list;
 }
 

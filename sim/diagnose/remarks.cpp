@@ -98,17 +98,16 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         "none");
   if (data.rig.lever() != nullptr)
     words.push_back("the angle of a lever is read: runs are not looked through for faults of a recorder");
+  std::vector<std::string> out;
   if (data.pressure_is_given())
-    words.push_back(fmt::format(
-        "the muscle{} the input: valve, supply, hose and gas are out of sight{}, and with them {}",
-        pair ? "s' pressures are" : "'s pressure is",
-        data::are_settled_points(data) ? ", and how late readings are" : "",
-        fmt::join(effects_out_of_sight(data), ", ")));
+    out.push_back(fmt::format("the muscle{} the input: valve, supply, hose and gas are out of sight",
+                              pair ? "s' pressures are" : "'s pressure is"));
   if (data.valve_pressure_is_given())
-    words.push_back(
-        fmt::format("the valve's pressure is the input: valve and supply are out of sight, and "
-                    "with them {}",
-                    fmt::join(effects_out_of_sight(data), ", ")));
+    out.emplace_back("the valve's pressure is the input: valve and supply are out of sight");
+  if (data::are_settled_points(data)) out.emplace_back("points at rest show neither speeds nor times");
+  if (!out.empty())
+    words.push_back(fmt::format("{}, and with them {}", fmt::join(out, "; "),
+                                fmt::join(effects_out_of_sight(data), ", ")));
   return words;
 }
 

@@ -95,8 +95,11 @@ class HandingOver {
           (!terms || one.score > found_.table[*terms].score))
         terms = i;
     }
-    if (!named || !terms) return false;
-    const auto [nats, error] = loss(found_.table[*named].held_out, found_.table[*terms].held_out);
+    if (!named) return false;
+    if (terms) {  // else none that was not far off
+      const auto [nats, error] = loss(found_.table[*named].held_out, found_.table[*terms].held_out);
+      if (!(nats > std::max(decisive.errors * error, decisive.strong))) return false;
+    }
     const auto gap = [&](std::size_t i) {  // of what the parameters leave
       const Three all = three(i);
       return gap_of(found_,
@@ -104,8 +107,7 @@ class HandingOver {
                      all.by_recalibrated, all.by_corrected},
                     experiment_.floor());
     };
-    return nats > std::max(decisive.errors * error, decisive.strong) &&
-           gap(*named).closed >= diagnose::thresholds.tell.closed &&
+    return gap(*named).closed >= diagnose::thresholds.tell.closed &&
            gap(found_.decision.chosen).floors_left() <= diagnose::thresholds.start.explained_floors;
   }
 

@@ -30,17 +30,20 @@ TEST(Parameters, AreFoundByTheirPathThroughPartsEffectsAndLists) {
     EXPECT_THROW(find(rig, path), std::invalid_argument) << path;
 }
 
-TEST(Catalogue, PointsAtRestDoNotShowHowLateTheyWereRead) {
+TEST(Catalogue, PointsAtRestShowNoEffectOfSpeedOrTime) {
   domain::Dataset data;
   data.runs.resize(1);
   data.runs.front().measured.emplace();
-  const auto has_delay = [&] {
-    return std::ranges::any_of(catalogue(data),
-                               [](const Candidate& c) { return c.effect == "reading_delay"; });
+  const auto has = [&](std::string_view name) {
+    return std::ranges::any_of(catalogue(data), [&](const Candidate& c) { return c.effect == name; });
   };
-  EXPECT_TRUE(has_delay());
-  data.runs.front().measured->point_s = 5.0;
-  EXPECT_FALSE(has_delay());
+  for (const double point_s : {0.0, 5.0}) {
+    data.runs.front().measured->point_s = point_s;
+    EXPECT_TRUE(has("guide_friction"));
+    for (const char* name : {"reading_delay", "viscous_damping", "speed_dependent_friction", "bladder_creep",
+                             "friction_warm_up"})
+      EXPECT_EQ(has(name), point_s == 0.0) << name;
+  }
 }
 
 TEST(Catalogue, HoldsAllEffectsWithANameAndEveryLawMovesSomething) {
