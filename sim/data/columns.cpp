@@ -183,6 +183,8 @@ class Columns {
       findings_.push_back(std::move(*found));
     else if (auto other = other_zero(rows, map_["contraction"], data_.runs.front().ratio_per_unit))
       findings_.push_back(std::move(*other));
+    else if (auto at_rest = other_zero_at_rest(data_, expected_, map_["contraction"]))
+      findings_.push_back(std::move(*at_rest));
   }
   double moving() const {
     return of_columns.moving_counts * plant::count_height_m(data_.rig) / data_.rig.muscle.rest_length_m;

@@ -1,9 +1,12 @@
 // See the header.
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include <plant/geometry.hpp>
 #include <sim/data/gains.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
@@ -67,6 +70,61 @@ std::optional<Finding> other_zero(const Compared& contraction, ColumnPlace place
       .message = fmt::format("contraction is {:.3g} {} than pressure and load say, everywhere: is its "
                              "zero what it reads at rest length? About columns: {{{}}}",
                              std::abs(off), off > 0.0 ? "more" : "less", line_of("contraction", place)),
+      .severity = Severity::doubtful};
+}
+
+std::optional<Finding> other_zero_at_rest(const domain::Dataset& data, const std::vector<Expected>& expected,
+                                          ColumnPlace place) {
+  if (data.recorded.start != domain::Start::settled || data.rig.has_angle()) return std::nullopt;
+  const plant::Braid braid(data.rig.muscle);
+  std::vector<std::size_t> runs;
+  std::vector<double> offs;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const domain::Run& run = data.runs[i];
+    if (run.contraction_ratio.empty() || expected[i].judged.empty() ||
+        (!run.missing.empty() && run.missing.front()))
+      continue;
+    const double pull_N = braid.force_N(thresholds.load.lifted, expected[i].pressure_Pa.front());
+    if (!(pull_N < of_gains.hardly_pulls * run.load_kg * plant::gravity_m_per_s2)) continue;
+    const double off = run.contraction_ratio.front() - expected[i].judged.front();
+    if (std::abs(off) < of_gains.off_at_rest) continue;
+    runs.push_back(i);
+    offs.push_back(off);
+  }
+  if (runs.empty()) return std::nullopt;
+  const double off = upper_median(offs);
+  place.zero =
+      domain::significant(place.zero + off / data.runs[runs.front()].ratio_per_unit / place.factor, digits);
+  return Finding{
+      .quantity = "contraction",
+      .runs = std::move(runs),
+      .message = fmt::format("contraction begins {:.3g} {} than where the load rests, too heavy to be "
+                             "lifted: is its zero what it "
+                             "reads at rest length, and is the rest_length right? About columns: {{{}}}",
+                             std::abs(off), off > 0.0 ? "more" : "less", line_of("contraction", place)),
+      .severity = Severity::doubtful};
+}
+
+std::optional<Finding> beyond_the_rig(const domain::Dataset& data, const std::vector<Expected>& expected) {
+  const auto most_of = [](const std::vector<double>& ratios) {
+    return ratios.empty() ? 0.0 : *std::ranges::max_element(ratios);
+  };
+  double rig = plant::Braid(data.rig.muscle).largest_contraction_ratio(), most = 0.0;
+  for (const Expected& one : expected) rig = std::max(rig, most_of(one.judged));
+  std::vector<std::size_t> runs;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const double reached = most_of(data.runs[i].contraction_ratio);
+    if (reached < of_gains.beyond_reach * rig) continue;
+    runs.push_back(i);
+    most = std::max(most, reached);
+  }
+  if (runs.empty()) return std::nullopt;
+  return Finding{
+      .quantity = "contraction",
+      .runs = std::move(runs),
+      .message = fmt::format("contraction reaches {:.3g}, and this rig {:.3g} at most: are rest_length, "
+                             "braid_angle and end_correction, and unit and zero of the reading right?",
+                             most, rig),
       .severity = Severity::doubtful};
 }
 

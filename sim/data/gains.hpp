@@ -1,10 +1,11 @@
-// Measured columns that differ from what the rig would do by nothing but a scale or a zero.
+// Measured columns that differ from what the rig would do by a scale or a zero, or go beyond it.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <sim/data/examine.hpp>
 #include <sim/data/finding.hpp>
 #include <sim/domain/columns.hpp>
 
@@ -34,6 +35,14 @@ std::optional<Finding> halved_or_doubled(const Compared& contraction, domain::Co
 /// A contraction that is too large or too small by the same everywhere. `ratio_per_unit`: of its column.
 std::optional<Finding> other_zero(const Compared& contraction, domain::ColumnPlace place,
                                   double ratio_per_unit);
+
+/// Runs that begin away from where the load rests, under a pressure that comes nowhere near to lifting it:
+/// what no effect and no strength of the muscle explains.
+std::optional<Finding> other_zero_at_rest(const domain::Dataset& data, const std::vector<Expected>& expected,
+                                          domain::ColumnPlace place);
+
+/// Contractions that neither the braid nor the model in any run comes near to.
+std::optional<Finding> beyond_the_rig(const domain::Dataset& data, const std::vector<Expected>& expected);
 
 /// A gauge that goes along with the model and shows many times, or a part of, what it would do.
 std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, domain::ColumnPlace place);

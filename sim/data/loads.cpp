@@ -9,6 +9,7 @@
 
 #include <plant/geometry.hpp>
 #include <sim/data/columns.hpp>
+#include <sim/data/gains.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/domain/number.hpp>
@@ -222,6 +223,7 @@ void check_loads(const domain::Dataset& data, const std::vector<Expected>& expec
   if (list.empty()) return;
   auto found = other_unit(list);
   if (!found) found = misplaced_points(data, list);
+  if (!found) found = beyond_the_rig(data, expected);  // what weighs less than nothing has no order
   if (!found) found = exchanged_labels(data, list);
   if (found) findings.push_back(std::move(*found));
 }

@@ -40,8 +40,11 @@ struct ColumnThresholds {
   double gauge_bar = 0.3;  ///< that the model's pressure must move to judge a gauge's unit
   double least_gauge_slope = 0.5, most_gauge_slope = 2.0;  ///< of a gauge in the right unit
   double halved = 1.12, halved_share = 0.005;  ///< of a factor 2; left of the sum of squares with it
-  double other_zero = 0.3;  ///< of the model's range: an offset of a contraction, if little else is left
-  double atmosphere = 0.2;  ///< relative: an offset so near to it is it
+  double other_zero = 0.3;    ///< of the model's range: an offset of a contraction, if little else is left
+  double off_at_rest = 0.04;  ///< contraction ratio: no bladder or thread gives so much without pressure
+  double hardly_pulls = 0.5;  ///< of the load: a muscle twice as strong would not lift it
+  double beyond_reach = 1.1;  ///< times what braid and model reach at most; ± of a sheet is less
+  double atmosphere = 0.2;    ///< relative: an offset so near to it is it
 };
 
 /// Loads, weighed by the muscle.

@@ -142,6 +142,21 @@ TEST(Sanity, AnotherUnitWithTheOtherSignIsSaidAsBoth) {
                     "columns: {contraction: {column: contraction_ratio, unit: mm, factor: -1}}"));
 }
 
+TEST(Sanity, AZeroIsSeenWhereTheLoadIsTooHeavyToBeLifted) {
+  plant::Rig weaker;
+  weaker.muscle.rest_radius_m *= std::sqrt(0.8);
+  auto data = measured_on(weaker, {36.0, 45.0});
+  read_from(data, {"laser", "mm", 263.7, -1.0});
+  EXPECT_EQ(said(data), std::vector<std::string>{});
+  for (domain::Run& run : data.runs)
+    for (double& ratio : run.contraction_ratio) ratio += 0.06;
+  EXPECT_TRUE(holds(says(data), "all runs: contraction begins 0.0596 more than", "zero: 245.8, factor: -1}"));
+}
+
+TEST(Sanity, ContractionsBeyondBraidAndModelAreAskedAbout) {
+  EXPECT_TRUE(holds(says(scaled(1.4)), ": contraction reaches 0.", ", and this rig 0.", "rest_length"));
+}
+
 TEST(Sanity, SingleReadingsAreLookedAtWithoutAFit) {
   auto data = sound();
   data.runs[1].contraction_ratio[200] += 0.05;
