@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/scatter.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/recognise/columns.hpp>
@@ -122,6 +123,19 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
         "what it reads with the muscle at its rest length, before factor is multiplied; its readings "
         "go from {:.4g} to {:.4g}, and {:.4g} is nearest to it",
         range.low, range.high, at_rest));
+}
+
+double step_of_lengths(const ColumnGuess& contraction, const std::vector<UnknownTable>& tables) {
+  if (contraction.input || contraction.unit.open() ||
+      !input::unit_problem(contraction.unit.value, "m").empty() || contraction.factor.value_or(Told{}).open())
+    return 0.0;
+  double step = 0.0;
+  for (const UnknownTable& table : tables) {
+    const Values* readings = column_of(table, contraction.column.value);
+    const double own = readings == nullptr ? 0.0 : data::step_of(*readings);
+    if (own > 0.0 && (step == 0.0 || own < step)) step = own;
+  }
+  return step;
 }
 
 }  // namespace mckibben::recognise

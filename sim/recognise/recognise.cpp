@@ -276,6 +276,14 @@ class Recogniser {
       set("sensors.contraction.pulses_per_turn", left_open("of the encoder's disk"));
       set("sensors.contraction.wheel_ratio", left_open("turns of the disk for one of the wheel"));
     }
+    if (const double step = contraction == nullptr ? 0.0 : step_of_lengths(*contraction, all_.tables);
+        step > 0.0) {
+      set("sensors.contraction.kind", {"laser",
+                                       "lengths were read (or linear_encoder); noise, accuracy and "
+                                       "highest of its data sheet help, too"});
+      set("sensors.contraction.resolution",
+          {fmt::format("{:.3g} {}", step, unit), "the readings come in steps of it"});
+    }
     if (const ColumnGuess* pressure = first_map().find("muscle_pressure");
         pressure != nullptr && !pressure->input)
       set("sensors.muscle_pressure.kind", {"gauge", "a muscle pressure was recorded"});

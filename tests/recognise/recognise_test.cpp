@@ -86,7 +86,7 @@ const Setting* setting(const std::vector<Setting>& list, const std::string& key)
 
 TEST_F(Recognise, ALaserThatFallsAndARegulatorInVolts) {
   const auto row = [](int k) {
-    return fmt::format("{};{:.3f};{:.3f};{:.3f}", 10 * k, 9 * drive(k), 412.5 - 30 * drive(k), 5 * drive(k));
+    return fmt::format("{};{:.3f};{:.1f};{:.3f}", 10 * k, 9 * drive(k), 412.5 - 30 * drive(k), 5 * drive(k));
   };
   const Recognised found = recognise({run("load_5kg_run1.csv", "Zeit;Soll;Laser;Druck\nms;V;mm;bar\n", row),
                                       run("b_7,5kg.csv", "Zeit;Soll;Laser;Druck\nms;V;mm;bar\n", row)},
@@ -104,6 +104,9 @@ TEST_F(Recognise, ALaserThatFallsAndARegulatorInVolts) {
   EXPECT_EQ(setting(found.rig, "valve.span_command")->told.value, "10 V");
   EXPECT_TRUE(setting(found.rig, "valve.span_pressure")->told.open());
   EXPECT_EQ(setting(found.rig, "tick")->told.value, "10 ms");
+  ASSERT_NE(setting(found.rig, "sensors.contraction.kind"), nullptr) << "else the thesis's encoder";
+  EXPECT_EQ(setting(found.rig, "sensors.contraction.kind")->told.value, "laser");
+  EXPECT_EQ(setting(found.rig, "sensors.contraction.resolution")->told.value, "0.1 mm");
   EXPECT_EQ(found.open(), 7u) << "muscle's three, valve's four";
   EXPECT_EQ(recognise({folder_ / "b_7,5kg.csv"}, true).open(), 0u) << "the rig is known";
   const auto shown_mm = shown(found.tables[0], *map.find("contraction"));
