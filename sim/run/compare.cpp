@@ -271,7 +271,8 @@ class Comparing {
       if (run.followed())
         for (const std::string& wrong :
              {load_warning(run, settings_of(i)),
-              missed_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig)})
+              missed_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig),
+              cycle_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig)})
           if (!wrong.empty()) all.push_back(data::warning_of_run(id, wrong));
       if (moves(run.recording.left_speed, scenario_.rig) && scenario_.skip_s.value_or(0.0) == 0.0)
         all.push_back(data::warning_of_run(id, still_moves(run.recording.left_speed, scenario_.rig)));

@@ -8,6 +8,7 @@
 
 #include <sim/domain/number.hpp>
 #include <sim/run/remarks.hpp>
+#include <sim/run/robustness.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
@@ -160,6 +161,27 @@ std::string load_warning(const TrackedRun& run, const controllers::Settings& set
   return fmt::format("it takes its load of {} kg for {:.3g} kg: write assumed_load: {} kg{}", load,
                      believed_kg, load,
                      terms->assumed_load_kg ? "" : ", or a weighing or calibration that fits this rig");
+}
+
+std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
+                          const plant::Rig& rig) {
+  if (rig.has_angle() || !run.failure.empty() || !limit_warning(run, rig).empty()) return "";
+  std::vector<double> contraction;
+  for (const Sample& sample : run.recording.samples)
+    contraction.push_back(sample.state.joint.contraction_ratio);
+  const auto cycle = limit_cycle(
+      {.target = wanted.ratios, .contraction = contraction, .current_mA = {}, .tick_s = rig.tick_s});
+  if (!cycle) return "";
+  std::string text =
+      fmt::format("it oscillates where its target rests, by ±{:.2g} mm with a period of {:.2g} s",
+                  1e3 * cycle->amplitude * rig.muscle.rest_length_m, cycle->period_s);
+  if (const auto* pid = controllers::part_of<controllers::PidTerms>(settings))
+    text += fmt::format(
+        "; a lower proportional{}, a longer integral_time or, against friction, a dead_zone of "
+        "{:.2g} would help: linearise shows the margins",
+        pid->proportional_mA ? fmt::format(" (it is {:.4g} mA)", *pid->proportional_mA) : "",
+        2.0 * cycle->amplitude);
+  return text;
 }
 
 bool gained_nothing(const TunedController& tuned) {

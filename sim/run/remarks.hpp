@@ -36,6 +36,11 @@ std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const co
 /// weighing may be wrong: with the key to write. Empty if it is not.
 std::string load_warning(const TrackedRun& run, const controllers::Settings& settings);
 
+/// Of a run that goes round and round where its target rests: amplitude, period, and the keys that would
+/// help. Empty if it does not, or if its limits say so.
+std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
+                          const plant::Rig& rig);
+
 /// True if the tuned gains follow the target no better than no feedback at all.
 bool gained_nothing(const TunedController& tuned);
 

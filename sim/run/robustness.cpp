@@ -11,21 +11,22 @@
 namespace mckibben::run {
 namespace {
 
-/// Turns of the load within some ticks, each after it went at least `cycle_way`.
-int turns(std::span<const double> contraction) {
-  int count = 0, direction = 0;
-  double edge = contraction.empty() ? 0.0 : contraction.front();
-  for (const double e : contraction) {
-    const bool further = direction > 0 ? e > edge : e < edge;
-    if (direction != 0 && further) {
-      edge = e;
-    } else if (std::abs(e - edge) >= cycle_way) {
-      count += direction != 0 ? 1 : 0;
-      direction = e > edge ? 1 : -1;
-      edge = e;
+/// Where the load turns within some ticks, each time after it went at least `cycle_way`.
+std::vector<std::size_t> turns(std::span<const double> contraction) {
+  std::vector<std::size_t> found;
+  int direction = 0;
+  std::size_t edge = 0;
+  for (std::size_t k = 0; k < contraction.size(); ++k) {
+    const double way = contraction[k] - contraction[edge];
+    if (direction * way > 0.0) {
+      edge = k;
+    } else if (std::abs(way) >= cycle_way) {
+      if (direction != 0) found.push_back(edge);
+      direction = way > 0.0 ? 1 : -1;
+      edge = k;
     }
   }
-  return count;
+  return found;
 }
 
 /// By linear interpolation between the ordered values (Hyndman & Fan 1996, type 7).
@@ -53,18 +54,24 @@ domain::Variation within_stated(plant::Rig rig) {
   return variation;
 }
 
-bool cycles(const Followed& run) {
+std::optional<LimitCycle> limit_cycle(const Followed& run) {
   const auto least = static_cast<std::size_t>(std::ceil(cycle_rest_s / run.tick_s));
   for (std::size_t begin = 0; begin < run.target.size();) {
     std::size_t end = begin + 1;
     while (end < run.target.size() && run.target[end] == run.target[begin]) ++end;
     const std::size_t half = (end - begin) / 2;
-    if (end - begin >= least &&
-        turns(run.contraction.subspan(begin + half, end - begin - half)) >= cycle_turns)
-      return true;
+    const auto contraction = run.contraction.subspan(begin + half, end - begin - half);
+    if (const auto at = turns(contraction); end - begin >= least && at.size() >= cycle_turns) {
+      double ways = 0.0;
+      for (std::size_t k = 1; k < at.size(); ++k)
+        ways += std::abs(contraction[at[k]] - contraction[at[k - 1]]);
+      const auto halves = static_cast<double>(at.size() - 1);
+      return LimitCycle{.amplitude = 0.5 * ways / halves,
+                        .period_s = 2.0 * static_cast<double>(at.back() - at.front()) * run.tick_s / halves};
+    }
     begin = end;
   }
-  return false;
+  return std::nullopt;
 }
 
 namespace {
@@ -79,10 +86,11 @@ DrawnRun outcome(const domain::Scenario& scenario, const Wanted& target, const R
   for (const Sample& sample : recording.samples) contraction.push_back(sample.state.joint.contraction_ratio);
   return {.ended = true,
           .rmse = metrics.rmse,
-          .cycles = cycles({.target = target.values,
-                            .contraction = contraction,
-                            .current_mA = {},
-                            .tick_s = scenario.rig.tick_s}),
+          .cycles = limit_cycle({.target = target.values,
+                                 .contraction = contraction,
+                                 .current_mA = {},
+                                 .tick_s = scenario.rig.tick_s})
+                        .has_value(),
           .saturated = at_limit > saturated_share,
           .over_contracted = recording.largest_contraction_ratio > plant::risky_contraction_ratio};
 }

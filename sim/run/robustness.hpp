@@ -19,7 +19,7 @@ namespace mckibben::run {
 
 /// A run counts as a limit cycle if the load still turns round at least so often, each time after a way of so
 /// much [contraction ratio], in the second half of a stretch in which the target rests for so long.
-inline constexpr int cycle_turns = 4;
+inline constexpr std::size_t cycle_turns = 4;
 inline constexpr double cycle_way = 1e-3, cycle_rest_s = 1.0;
 /// As saturated, if its current stood at an end of its range for more than this share of the time.
 inline constexpr double saturated_share = 0.10;
@@ -50,8 +50,11 @@ struct RobustRow {
 /// are not known at all are none of them.
 domain::Variation within_stated(plant::Rig rig);
 
-/// Whether the load goes round and round where its target rests.
-bool cycles(const Followed& run);
+/// How a load goes round and round where its target rests; none if it comes to rest.
+struct LimitCycle {
+  double amplitude, period_s;  ///< means; of contraction ratio, half of the way between two turns
+};
+std::optional<LimitCycle> limit_cycle(const Followed& run);
 
 /// One load under the controllers that `make` makes, on each of the scenario's drawn rigs. What is drawn
 /// depends on the scenario's seed and on nothing else: all controllers meet the same rigs, and the same noise

@@ -1,5 +1,6 @@
 // Words for controllers at a limit and for tunings that gained nothing, from made-up runs.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -108,6 +109,32 @@ TEST(Remarks, AWrongLoadIsToldWhereverTheRunEnds) {
   EXPECT_EQ(load_warning(run, controllers::FeedforwardPidSettings{}), "") << "has feedback";
   run.failure = "the load was not weighed";
   EXPECT_EQ(load_warning(run, settings), "");
+}
+
+TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
+  const plant::Rig rig;
+  Wanted wanted;
+  wanted.ratios.assign(400, 0.1);
+  TrackedRun run{.load_kg = 16.0, .controller = "pid"};
+  controllers::PidSettings settings;
+  settings.proportional_mA = 120.0;
+  const auto swinging = [&](double amplitude) {
+    run.recording.samples.clear();
+    for (int k = 0; k < 400; ++k) {
+      run.recording.samples.emplace_back();
+      run.recording.samples.back().state.joint.contraction_ratio = 0.1 + amplitude * std::sin(0.2 * k);
+    }
+    return cycle_warning(run, wanted, settings, rig);
+  };
+  EXPECT_EQ(swinging(4e-4), "");
+  EXPECT_EQ(
+      swinging(4e-3),
+      "it oscillates where its target rests, by ±1.2 mm with a period of 0.38 s; a lower proportional (it "
+      "is 120 mA), a longer integral_time or, against friction, a dead_zone of 0.008 would help: linearise "
+      "shows the margins");
+  run.limits = {4.0, 20.0};
+  run.metrics.at_lowest_current = 0.6;
+  EXPECT_EQ(swinging(4e-3), "") << "its limits say so";
 }
 
 TEST(Remarks, ATuningMustBeatNoFeedback) {

@@ -30,12 +30,17 @@ std::pair<std::vector<double>, std::vector<double>> resting(double amplitude, do
 TEST(Robustness, ALoadThatGoesRoundAndRoundWhereItsTargetRestsIsALimitCycle) {
   const auto swings = [](double amplitude, double lasting_s) {
     const auto [target, contraction] = resting(amplitude, lasting_s);
-    return cycles(followed(target, contraction));
+    return limit_cycle(followed(target, contraction)).has_value();
   };
   EXPECT_TRUE(swings(1e-3, 3.0));
   EXPECT_FALSE(swings(4e-4, 3.0)) << "less than the way that counts";
   EXPECT_FALSE(swings(5e-3, 1.0)) << "it comes to rest";
   EXPECT_FALSE(swings(0.0, 3.0));
+  const auto [target, contraction] = resting(2e-3, 3.0);
+  const auto found = limit_cycle(followed(target, contraction));
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->amplitude, 2e-3, 5e-5);
+  EXPECT_NEAR(found->period_s, 0.5, 0.012);
 }
 
 TEST(Robustness, ATargetThatNeverRestsHasNoLimitCycle) {
@@ -44,7 +49,7 @@ TEST(Robustness, ATargetThatNeverRestsHasNoLimitCycle) {
     target.push_back(0.1 + 0.05 * std::sin(0.05 * k));
     contraction.push_back(target.back() + 2e-3 * std::sin(0.5 * k));
   }
-  EXPECT_FALSE(cycles(followed(target, contraction)));
+  EXPECT_FALSE(limit_cycle(followed(target, contraction)));
 }
 
 TEST(Robustness, BandsAreOfThoseThatEndedAndFailuresAreCountedOnce) {
