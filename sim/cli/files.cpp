@@ -227,7 +227,8 @@ int print_schema(const SchemaOptions& options) {
     return usage_error;
   }
   if (format == "yaml") {
-    print(input::to_yaml(input::rig_json(plant::Rig{})));
+    print("# Keys of other valves, of effects and of pairs: mckibben schema rig --format markdown\n" +
+          input::to_yaml(input::rig_json(plant::Rig{})));
     return done;
   }
   if (kind == "all") {

@@ -198,7 +198,8 @@ void read_changes(const Source& source, const Node& map, Rig& into, Problems& pr
                   std::span<const std::string_view> also_allowed) {
   into = {};
   forget_stops(into);
-  if (const Node* base = map.find("base")) {
+  const Node* base = map.find("base");
+  if (base != nullptr) {
     if (base->kind == Node::Kind::scalar)
       read_reference(source, *base, into, problems, chain);
     else
@@ -212,7 +213,8 @@ void read_changes(const Source& source, const Node& map, Rig& into, Problems& pr
     if (map.find(old.key) != nullptr) allowed.push_back(old.key);
   const plant::CommandUnit commands = into.command_unit();
   read_old_sensors(source, map, into.sensors, problems, {commands, &into.spreads, "sensors."});
-  read_struct(source, map, into, problems, allowed, {commands, &into.spreads});
+  read_struct(source, map, into, problems, allowed,
+              {commands, &into.spreads, "", base != nullptr ? base->text : ""});
 }
 
 }  // namespace

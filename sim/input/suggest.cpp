@@ -27,6 +27,13 @@ std::vector<std::string_view> with_part(std::string_view word, std::span<const s
   return found.size() <= few ? found : std::vector<std::string_view>{};
 }
 
+/// Known words that end as it does: rest_radius for inner_radius.
+std::vector<std::string_view> with_ending(std::string_view word, std::span<const std::string_view> known) {
+  const std::size_t at = word.rfind('_');
+  return at == std::string_view::npos ? std::vector<std::string_view>{}
+                                      : with_part(word.substr(at + 1), known);
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view left, std::string_view right) {
@@ -69,8 +76,9 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
   std::erase_if(meant, [&](std::string_view name) { return std::ranges::find(known, name) == known.end(); });
   if (meant.empty() && word.size() <= longest_word) meant = with_part(word, known);
   if (!meant.empty()) return fmt::format("; did you mean {}?", fmt::join(meant, " or "));
-  const auto best = nearest(word, known);
-  return best ? fmt::format("; did you mean {}?", *best) : std::string{};
+  if (const auto best = nearest(word, known)) return fmt::format("; did you mean {}?", *best);
+  if (word.size() <= longest_word) meant = with_ending(word, known);
+  return meant.empty() ? std::string{} : fmt::format("; did you mean {}?", fmt::join(meant, " or "));
 }
 
 std::string join(std::span<const std::string_view> words) {

@@ -1,5 +1,6 @@
 // Single values and their messages: each names key, value and rule; see the header.
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <sim/domain/fill_in.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/domain/renamed.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
@@ -33,6 +35,17 @@ std::string integer_message(std::string_view key, const Node& node, auto lowest,
                             std::string_view meaning) {
   return fmt::format("{} = {} must be a whole number from {} to {}{} ({})", key, shortened(node.text), lowest,
                      highest, node.quoted ? ", without quotes" : "", meaning);
+}
+
+/// As a whole word.
+bool names_key(std::string_view message, std::string_view key) {
+  const auto is_part = [&](std::size_t at) {
+    return at < message.size() &&
+           (std::isalnum(static_cast<unsigned char>(message[at])) != 0 || message[at] == '_');
+  };
+  for (std::size_t at = message.find(key); at != std::string_view::npos; at = message.find(key, at + 1))
+    if (!is_part(at - 1) && !is_part(at + key.size())) return true;
+  return false;
 }
 
 }  // namespace
@@ -62,6 +75,7 @@ void ValueReader::require(std::string_view key, std::string_view meaning) {
 }
 
 void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) {
+  if (is_unknown_kind_) return;
   std::vector<std::string_view> allowed(also_allowed.begin(), also_allowed.end());
   allowed.insert(allowed.end(), known_.begin(), known_.end());
   for (const Node& child : map_.children) {
@@ -93,9 +107,17 @@ void ValueReader::check_at_work(std::string_view effect, std::string_view amplit
 void ValueReader::broken_rule(std::string_view key, std::string_view message) {
   const Node* node = map_.find(key);
   const bool has_text = node != nullptr && node->kind == Node::Kind::scalar;
-  bad(node != nullptr ? *node : map_, has_text
-                                          ? fmt::format("{} = {}: {}", key, shortened(node->text), message)
-                                          : fmt::format("{}: {}", key, message));
+  std::string others;
+  for (const auto& [other, value, unit] : not_written_)
+    if (other == key || names_key(message, other))
+      others += fmt::format("{}{} = {}", others.empty() ? "" : ", ", other,
+                            unit == "1" ? domain::write_number(value)
+                                        : usual_quantity(value, in_unit(context_.commands, unit)));
+  if (!others.empty())
+    others = fmt::format(" ({}, {})", others,
+                         context_.base.empty() ? "by default" : "of the base " + shortened(context_.base));
+  bad(node != nullptr ? *node : map_,
+      fmt::format("{}{}: {}{}", key, has_text ? " = " + shortened(node->text) : "", message, others));
 }
 
 bool ValueReader::is_scalar(std::string_view key, const Node& node, std::string_view wanted) {
@@ -199,6 +221,7 @@ std::optional<std::size_t> ValueReader::choice(std::string_view key, const Node&
   if (!is_scalar(key, node, "one of: " + join(choices))) return std::nullopt;
   const auto found = std::find(choices.begin(), choices.end(), node.text);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+  is_unknown_kind_ = is_unknown_kind_ || key == "kind";
   bad(node, fmt::format("{} = {} is not one of: {}{}", key, shortened(node.text), join(choices),
                         did_you_mean(node.text, choices)));
   return std::nullopt;

@@ -36,9 +36,10 @@ struct ReadContext {
   plant::CommandUnit commands = plant::CommandUnit::mA;
   plant::Spreads* list = nullptr;
   std::string inside{};
+  std::string base{};  ///< what the values that are not written are of; empty: defaults
 
   ReadContext below(std::string_view key) const {
-    return {commands, list, list == nullptr ? "" : inside + std::string(key) + '.'};
+    return {commands, list, list == nullptr ? "" : inside + std::string(key) + '.', base};
   }
 };
 
@@ -96,7 +97,8 @@ class ValueReader {
   void check_there(std::string_view by);
   /// An effect that is absent says so: the value of its key `amplitude` is written.
   void check_at_work(std::string_view effect, std::string_view amplitude);
-  /// A rule that is broken: shown at the key's value, or at the whole map.
+  /// A rule that is broken: shown at the key's value, or at the whole map. Of values that it names and that
+  /// are not written there it says what they are, and whose.
   void broken_rule(std::string_view key, std::string_view message);
 
  protected:
@@ -115,6 +117,9 @@ class ValueReader {
   std::optional<std::size_t> kind(std::string_view key, const Node& node,
                                   std::span<const std::string_view> kinds);
   bool is_list(std::string_view key, const Node& node);
+  void not_written(std::string_view key, double value, std::string_view unit) {
+    not_written_.push_back({key, value, unit});
+  }
 
   const Source& source_;
   const Node& map_;
@@ -130,7 +135,14 @@ class ValueReader {
     problems_.error(source_, node.place, std::move(message));
   }
 
+  struct NotWritten {
+    std::string_view key;
+    double value;
+    std::string_view unit;
+  };
   std::vector<std::string_view> known_;
+  std::vector<NotWritten> not_written_;
+  bool is_unknown_kind_ = false;  ///< so nobody knows which keys it has
   std::size_t errors_before_;
 };
 
@@ -150,6 +162,8 @@ class StructReader : public ValueReader {
   void operator()(std::string_view key, T& value, std::string_view unit, double lowest, double highest,
                   std::string_view meaning) {
     const Node* node = take(key);
+    if constexpr (std::same_as<T, double>)
+      if (node == nullptr) not_written(key, value, unit);
     if (node == nullptr) return;
     const auto [least, most] = in_unit(context_.commands, unit, plant::Limits{lowest, highest});
     const std::string named = in_unit(context_.commands, unit);

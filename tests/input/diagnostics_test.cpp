@@ -103,6 +103,7 @@ TEST(Suggest, OnlyWhatIsNear) {
   EXPECT_EQ(nearest("x", known), std::nullopt);
   EXPECT_EQ(did_you_mean("radius", known), "; did you mean rest_radius?");
   EXPECT_EQ(did_you_mean("radiu", known), "");
+  EXPECT_EQ(did_you_mean("inner_radius", known), "; did you mean rest_radius?") << "by its last part";
   EXPECT_EQ(did_you_mean("rest_radus", known), "; did you mean rest_radius?");
 }
 

@@ -1,9 +1,11 @@
 // Regulators in rig files: what their kind and their lag have no use for is neither read nor written.
 #include <gtest/gtest.h>
 
+#include <sim/input/diagnostics.hpp>
 #include <sim/input/fields_json.hpp>
 
 #include "rig_text.hpp"
+#include "says.hpp"
 
 namespace mckibben::input {
 namespace {
@@ -34,6 +36,34 @@ TEST(RegulatorFile, OfSecondOrderHasAFrequencyAndADamping) {
   const Json written = to_json(rig).at("valve");
   EXPECT_FALSE(written.contains("time_constant"));
   EXPECT_EQ(to_json(rig_of("valve: " + written.dump())), to_json(rig));
+}
+
+TEST(RegulatorFile, AnUnknownKindIsNoReasonToDoubtItsKeys) {
+  try {
+    rig_of("valve: {kind: proportional, time_constant: 3 ms}");
+    ADD_FAILURE();
+  } catch (const BadInput& bad) {
+    ASSERT_EQ(bad.problems().size(), 1u) << bad.what();
+    EXPECT_TRUE(holds(bad.what(), "kind = proportional is not one of: servo, regulator, on_off, none"));
+  }
+}
+
+TEST(RegulatorFile, ARuleSaysWhoseTheValuesAreThatAreNotWritten) {
+  const auto says = [](const std::string& text) -> std::string {
+    try {
+      rig_of(text);
+    } catch (const BadInput& bad) {
+      return bad.what();
+    }
+    return "";
+  };
+  EXPECT_TRUE(holds(says("base: thesis\nvalve: {span_pressure: 9 bar}"),
+                    "supply_pressure: must not be below span_pressure (supply_pressure = 6 bar, of the base "
+                    "thesis)"));
+  EXPECT_TRUE(
+      holds(says("valve: {supply_pressure: 2 bar}"),
+            "supply_pressure = 2 bar: must not be below span_pressure (span_pressure = 5 bar, by default)"));
+  EXPECT_TRUE(lacks(says("base: thesis\nvalve: {span_pressure: 9 bar, supply_pressure: 8 bar}"), "base"));
 }
 
 TEST(RegulatorFile, AServoValveIsWrittenAsEver) {
