@@ -132,8 +132,23 @@ function showHidden() {
   byId('hide').hidden = one;
   byId('all-off').disabled = one;
   byId('guess-line').hidden = byId('give-up').hidden = !one;
+  if (one) offer(hidden());
   byId('guess').value = '';
   if (one) say('One effect is at work. Move the rig, look at the loops, and choose which one it is.');
+}
+
+/** A few to choose from, the hidden one among them, the same in all pages; then all others. */
+const few = 5;
+function offer(right) {
+  const spread = (name) => [...right + name].reduce((sum, c) => (31 * sum + c.charCodeAt(0)) % 65521, 7);
+  const names = report.switches.map(({name}) => name);
+  const drawn = names.filter((name) => !effectOf(name).on).sort((a, b) => spread(a) - spread(b));
+  const first = new Set([right, ...drawn.slice(0, few - 1)]);
+  const group = (label, is) => make(
+      'optgroup', {label}, ...names.filter(is).map((name) => make('option', {value: name}, inWords(name))));
+  byId('guess').replaceChildren(
+      make('option', {value: ''}, '-'), group('one of these', (name) => first.has(name)),
+      group('all others', (name) => !first.has(name)));
 }
 function guess(name) {
   if (name === '') return;
@@ -147,9 +162,6 @@ function reveal(before) {
 }
 
 function makeSwitches() {
-  byId('guess').replaceChildren(
-      make('option', {value: ''}, '-'),
-      ...report.switches.map(({name}) => make('option', {value: name}, inWords(name))));
   byId('switches').replaceChildren(...report.switches.map((one) => {
     const tick = make('input', {type: 'checkbox'});
     tick.addEventListener('change', () => {

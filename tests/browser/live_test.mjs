@@ -113,6 +113,14 @@ test('it opens moving, and an effect that is hidden stays so until a guess finds
     assert.match(await each.textContent('#message'), /^One effect is at work/);
     assert.ok(await each.locator('#all-off').isDisabled());
   }
+  const offered = async (each) =>
+      each.locator('#guess optgroup')
+          .evaluateAll((groups) => groups.map((group) => [...group.children].map(({value}) => value)));
+  const [first, others] = await offered(page);
+  assert.equal(first.length, 5);
+  assert.ok(first.includes(right));
+  assert.deepEqual(await offered(other.page), [first, others]);
+  assert.equal(first.length + others.length, await page.locator('.switch').count());
   await page.selectOption('#guess', wrong);
   assert.equal(await page.textContent('#message'), `It is not ${wrong.replaceAll('_', ' ')}.`);
   await page.selectOption('#guess', right);
