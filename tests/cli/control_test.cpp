@@ -29,6 +29,20 @@ TEST(Control, ADryRunShowsWhatWouldBeSentAndWritesNothing) {
   EXPECT_EQ(said.out, mckibben("control b.yaml --dry-run", scratch).out);
 }
 
+// docs/sensors.md: at 0.1 mm, 30 mm are 300.
+TEST(Control, ALasersCountsAreStepsOfItsResolution) {
+  const Scratch scratch;
+  std::string text = on_bench;
+  text.replace(text.find("settling_time"), 0,
+               "sensors: [{signal: contraction, kind: laser, resolution: 0.1 mm}], ");
+  text.replace(text.find("duration: 0.6"), 13, "duration: 1.2");
+  write_text(scratch / "b.yaml", text);
+  const std::string out = mckibben("control b.yaml --dry-run", scratch).out;
+  const std::size_t last = out.find("\n    99 ");
+  ASSERT_NE(last, std::string::npos) << out;
+  EXPECT_NEAR(std::stod(out.substr(last + 8)), 300.0, 5.0) << out;
+}
+
 TEST(Control, ADryRunIsASummaryUnlessAskedForAll) {
   const Scratch scratch;
   write_text(scratch / "b.yaml", on_bench);
