@@ -18,6 +18,9 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
 /// "+" load taken as the range's end, or empty.
 std::string extrapolation_mark(const run::TrackedRun& run);
 
+/// "*" if one of a controller's runs is extrapolated, so that its mean over them is, too.
+std::string mean_mark(const run::Comparison& comparison, const std::string& controller);
+
 /// That a run came to where braids end; empty if it did not. `who`: as the note calls it.
 std::string contraction_note(const plant::Rig& rig, double reached, const std::string& who);
 

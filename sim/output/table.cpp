@@ -127,6 +127,13 @@ std::string extrapolation_mark(const run::TrackedRun& run) {
                                                                : "";
 }
 
+std::string mean_mark(const run::Comparison& comparison, const std::string& controller) {
+  const auto is_extrapolated = [&](const run::TrackedRun& run) {
+    return run.controller == controller && run.failure.empty() && extrapolation_mark(run) == "*";
+  };
+  return std::ranges::any_of(comparison.runs, is_extrapolated) ? "*" : "";
+}
+
 namespace {
 
 /// Errors as contraction ratios and lengths, a line for each load under each controller.
@@ -165,11 +172,6 @@ std::string lines_of_one(const domain::Scenario& scenario, const run::Comparison
 
 /// What the rmse is over all runs of each controller.
 std::string spreads(const domain::Scenario& scenario, const run::Comparison& comparison) {
-  const auto extrapolated = [&](const std::string& controller) {
-    return std::any_of(comparison.runs.begin(), comparison.runs.end(), [&](const auto& run) {
-      return run.controller == controller && run.failure.empty() && extrapolation_mark(run) == "*";
-    });
-  };
   const bool angle = scenario.rig.has_angle();
   std::vector<std::string> heads{"controller", "rmse mean", "mean_mm", "lowest",
                                  "highest",    "spread",    "std dev"};
@@ -181,7 +183,7 @@ std::string spreads(const domain::Scenario& scenario, const run::Comparison& com
                 error_in_degrees(row.rmse->highest), error_in_degrees(row.rmse->width()),
                 error_in_degrees(row.rmse->standard_deviation)});
     else if (row.rmse)
-      grid.add({row.controller + (extrapolated(row.controller) ? "*" : ""), ratio(row.rmse->mean),
+      grid.add({row.controller + mean_mark(comparison, row.controller), ratio(row.rmse->mean),
                 cell(row.rmse->mean, 1e3 * scenario.rig.muscle.rest_length_m, 2), ratio(row.rmse->lowest),
                 ratio(row.rmse->highest), ratio(row.rmse->width()), ratio(row.rmse->standard_deviation)});
   return grid.empty() ? "" : grid.text();

@@ -1,7 +1,9 @@
 // The report of `run`: which controller follows best, rmse by target, load and controller, and the runs that
 // are compared with each other, drawn together; of two muscles also those under given currents.
 #include <algorithm>
+#include <ranges>
 #include <span>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -56,16 +58,43 @@ std::string sentence_of_currents(const run::TrackedRun& run) {
       joint.opposite_cord_force_N.low, joint.opposite_cord_force_N.high);
 }
 
+/// Whether it plays a current, whatever the target.
+bool is_given(const controllers::Settings& settings) {
+  return std::visit(
+      []<class One>(const One&) { return controllers::is_one_of<One, domain::CampaignWaveform>; }, settings);
+}
+
+/// How far the loads move under a given current, in place of errors from a target that it does not follow.
+std::string sentence_of_given(const Scenario& scenario, const Comparison& comparison,
+                              const std::string& controller) {
+  std::string text;
+  for (const auto& run : comparison.runs) {
+    if (run.controller != controller || !run.failure.empty() || run.recording.samples.empty()) continue;
+    const auto ratio = [](const plant::Sample& sample) { return sample.state.joint.contraction_ratio; };
+    const auto [low, high] = std::ranges::minmax(run.recording.samples | std::views::transform(ratio));
+    text += fmt::format("{} {} kg by {}", text.empty() ? ": it moves" : ",",
+                        domain::write_number(run.load_kg), full_length_html(high - low, scenario.rig, 1));
+  }
+  return fmt::format(" {} follows no target{}.", escaped(controller), text);
+}
+
 std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   const run::ControllerSpread *best = nullptr, *worst = nullptr;
-  for (const auto& one : comparison.spreads) {
+  std::string of_given;
+  for (std::size_t c = 0; c < comparison.spreads.size(); ++c) {
+    const auto& one = comparison.spreads[c];
     if (!one.rmse) continue;
+    if (is_given(scenario.controllers[c]) && !of_angle(scenario)) {
+      of_given += sentence_of_given(scenario, comparison, one.controller);
+      continue;
+    }
     if (best == nullptr || one.rmse->mean < best->rmse->mean) best = &one;
     if (worst == nullptr || one.rmse->mean > worst->rmse->mean) worst = &one;
   }
   std::string text, given;
   for (const auto& run : comparison.runs)
     if (!run.followed()) given += ' ' + sentence_of_currents(run);
+  if (best == nullptr && !of_given.empty()) return of_given.substr(1) + given;
   if (best == nullptr) return (scenario.controllers.empty() ? "" : "No run came to its end.") + given;
   const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
                                     [](const auto& run) { return !run.failure.empty(); });
@@ -93,7 +122,7 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   if (!comparison.unmet.empty())
     text += fmt::format(" {} of the scenario's criteria {} not met.", comparison.unmet.size(),
                         comparison.unmet.size() == 1 ? "is" : "are");
-  return text + given;
+  return text + of_given + given;
 }
 
 std::string name_of(const Scenario& scenario, const run::Task& task) {
@@ -169,7 +198,7 @@ std::string table(const Scenario& scenario, const Comparison& comparison) {
           const auto& rmse = comparison.spreads[c].rmse;
           return rmse ? std::optional(rmse->mean) : std::nullopt;
         },
-        [](std::size_t) { return std::string(); });
+        [&](std::size_t c) { return output::mean_mark(comparison, comparison.spreads[c].controller); });
   html += "</tbody></table>\n";
   if (marked)
     html +=

@@ -39,6 +39,16 @@ TEST(Limits, FollowTheValve) {
   EXPECT_TRUE(document.at("warnings").empty()) << document.at("warnings");
 }
 
+TEST(Report, AGivenCurrentHasNoErrorForAHeadline) {
+  const Scratch scratch;
+  const std::string triangle = "  - {kind: triangle_current, low: 0 mA, high: 8 mA, period: 2 s}\n";
+  write_text(scratch / "own.yaml", scenario(triangle));
+  ASSERT_EQ(mckibben("run own.yaml", scratch).status, 0);
+  const std::string page = read_text(scratch / "out/own/report.html");
+  EXPECT_TRUE(holds(page, "triangle_current follows no target: it moves 8 kg by "));
+  EXPECT_TRUE(lacks(page, "triangle_current: root mean square error"));
+}
+
 TEST(Limits, OfARigInVoltsAreInVoltsAndSoIsAllThatIsWritten) {
   const Scratch scratch;
   const std::string rig =
