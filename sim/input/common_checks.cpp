@@ -95,6 +95,9 @@ void check_different(const std::vector<double>& loads_kg, const Node& nodes, con
                      fmt::format("loads: {} stands in the list already", nodes.children[i].text));
 }
 
+/// Of a usual load: g are written for kg.
+constexpr double hardly_anything = 1.0 / 200.0;
+
 void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, const plant::Rig& rig,
                  Problems& problems) {
   const Node& nodes = *file.root.find("loads");
@@ -106,6 +109,12 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, no_mass(rig)));
     else if (const auto why = too_heavy(loads_kg[i], rig); !why.empty())
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, why));
+    else if (loads_kg[i] > 0.0 && loads_kg[i] < hardly_anything * usual_load_kg(rig))
+      problems.warning(
+          file.source, node.place,
+          fmt::format("loads: {} is next to nothing for this muscle, which usually lifts {:g} kg: "
+                      "is the unit right?",
+                      node.text, usual_load_kg(rig)));
   }
 }
 

@@ -79,6 +79,16 @@ TEST(Scenario, NameComesFromTheFile) {
   EXPECT_EQ(read_scenario(Source("some/where/my loads.yaml", text, ""), warnings).name, "my_loads");
 }
 
+TEST(Scenario, ALoadThatIsNextToNothingIsAskedAbout) {
+  std::string text = good_scenario;
+  text.replace(text.find("11.138 kg"), 9, "11.138 g");
+  std::vector<Problem> warnings;
+  read_text(text, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message.find("loads: 11.138 g is next to nothing for this muscle"),
+            std::string::npos);
+}
+
 TEST(Scenario, WarnsOfRisk) {
   std::string text = good_scenario;
   const std::string height = "to: 0.05";
