@@ -39,6 +39,21 @@ TEST(Limits, FollowTheValve) {
   EXPECT_TRUE(document.at("warnings").empty()) << document.at("warnings");
 }
 
+// 8.87 kg is outside the calibration, so the mean over both loads is, too.
+TEST(Report, TheMeanIsMarkedWhereOneOfItsRunsIsExtrapolated) {
+  const Scratch scratch;
+  write_text(scratch / "own.yaml",
+             "schema: mckibben-scenario/1\nloads: [11.138 kg, 8.87 kg]\nduration: 1 s\n"
+             "target: {kind: minimum_jerk, start: 0.02, moves: [{at: 0.1 s, lasting: 0.8 s, to: 0.1}]}\n"
+             "controllers: [{kind: feedforward_pid, calibration: thesis, extrapolate_load: true, "
+             "proportional: 40 mA, integral_time: 0.15 s, derivative_time: 0.08 s}]\n");
+  ASSERT_EQ(mckibben("run own.yaml", scratch).status, 0);
+  const std::string page = read_text(scratch / "out/own/report.html");
+  const std::size_t mean = page.find("<tr class='mean'>");
+  ASSERT_NE(mean, std::string::npos);
+  EXPECT_TRUE(holds(page.substr(mean, page.find("</tr>", mean) - mean), "*</td>"));
+}
+
 TEST(Report, AGivenCurrentHasNoErrorForAHeadline) {
   const Scratch scratch;
   const std::string triangle = "  - {kind: triangle_current, low: 0 mA, high: 8 mA, period: 2 s}\n";
