@@ -200,9 +200,10 @@ class Estimating {
                           .nominal = from,
                           .deviations = z,
                           .at_the_edge = value <= ends.lowest || value >= ends.highest};
-    if (const auto stated = result_.rig.spreads.find(path); stated != result_.rig.spreads.end())
-      stated->second =
-          domain::significant(p.scale * off, 2);  // as well as these runs tell it, where the file told it
+    // As well as these runs tell it, where the file told it; where they hardly do, as the file does.
+    if (const auto stated = result_.rig.spreads.find(path);
+        stated != result_.rig.spreads.end() && determined(j))
+      stated->second = domain::significant(p.scale * off, 2);
     result_.moved.push_back(std::move(moved));
   }
 

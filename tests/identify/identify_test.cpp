@@ -128,6 +128,16 @@ TEST(Estimates, FindACordThatIsSofterThanWasSaid) {
   EXPECT_LT(stiffness.low, 15000.0);
   EXPECT_GT(stiffness.high, 15000.0);
   EXPECT_EQ(found.rig.muscle.cord.stiffness_N_per_m, stiffness.value);
+  EXPECT_LT(found.rig.spreads.at("muscle.cord.stiffness"), 1e3);
+}
+
+TEST(Estimates, LeaveTheFilesDeviationOfWhatTheRunsDoNotTell) {
+  plant::Rig nominal;
+  nominal.spreads = {{"valve.critical_ratio", 1.2345e-6}, {"muscle.rest_radius", 1e-4}};
+  const Estimates found = recalibrated({}, nominal, 16.138);
+  EXPECT_FALSE(fitted(found, "valve.critical_ratio").determined);
+  EXPECT_EQ(found.rig.spreads.at("valve.critical_ratio"), 1.2345e-6);
+  EXPECT_LT(found.rig.spreads.at("muscle.rest_radius"), 5e-5);
 }
 
 // Loads of 0.1 kg stand for nothing that hangs.
