@@ -83,6 +83,21 @@ class Env(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, said):
                 bad()
 
+    def test_a_recording_replays(self):
+        for rig in ("thesis", "thesis_pair"):
+            env = mckibben.Env(rig, duration_s=1.2)
+            env.reset(seed=1)
+            with self.assertRaisesRegex(RuntimeError, "one step at least"):
+                env.recording()
+            chance = numpy.random.default_rng(2)
+            for _ in range(60):
+                env.step(chance.uniform(-1.0, 1.0, env.action_space.shape))
+            recording = env.recording()
+            replayed = mckibben.Dataset({"rig": env.rig.to_dict(), "runs": [recording]}).replay()[0]
+            reads = env.task.reads
+            numpy.testing.assert_allclose(replayed[f"encoder_{reads}"], recording["data"][reads], rtol=0, atol=1e-9)
+            self.assertGreater(abs(numpy.diff(recording["data"][reads])).max(), 1e-3)
+
     def test_nothing_is_done_out_of_order(self):
         env = mckibben.Env(duration_s=0.036)
         with self.assertRaises(RuntimeError):

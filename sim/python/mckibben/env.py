@@ -80,10 +80,24 @@ class Env(Base):
     @property
     def history(self):
         """The episode so far, a numpy array for each key, to be plotted: time_s, target, contraction_ratio as counted,
-        command in the rig's unit, reward; a row for each step. Behind Gymnasium's wrappers: env.unwrapped.history."""
+        command in the rig's unit, held up to this time, reward; a row for each step. Behind Gymnasium's wrappers:
+        env.unwrapped.history."""
         commands = ("command", "opposite_command") if self.task.pair else ("command",)
         keys = ("time_s", "target", self.task.reads, *commands, "reward")
         return dict(zip(keys, numpy.array(self.rows, dtype=float).reshape(-1, len(keys)).T))
+
+    def recording(self, id="episode"):
+        """The episode so far as a run of measured data: mckibben.Dataset({"rig": env.rig.to_dict(), "runs":
+        [env.recording()]}). There a row has the command from its time on; the first one is at rest, a tick before."""
+        if not self.rows:
+            raise RuntimeError("a recording wants one step at least")
+        rows = numpy.array(self.rows, dtype=float)
+        names = self.task.command_names(self.episode.rig.command_unit)
+        data = {"time_s": (numpy.arange(len(rows) + 2) * self.episode.tick_s).round(9),
+                self.task.reads: numpy.concatenate([[self.at_rest] * 2, rows[:, 2]])}
+        for i, (name, rest) in enumerate(zip(names, self.episode.resting())):
+            data[name] = numpy.concatenate([[rest], rows[:, 3 + i], rows[-1:, 3 + i]])
+        return {"id": id, "data": data} | ({} if self.task.pair else {"load": f"{self.episode.load_kg!r} kg"})
 
     @property
     def rig(self):
@@ -104,7 +118,9 @@ class Env(Base):
         self.episode = Episode(self.task, self.np_random, options)
         self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
         self.rows, self.ended = [], False
-        return self.task.observation(self.episode.begin(self._counted())), dict(self.episode.info)
+        seen = self.episode.begin(self._counted())
+        self.at_rest = self.episode.last
+        return self.task.observation(seen), dict(self.episode.info)
 
     def step(self, action):
         """A tick: (observation, reward, terminated, truncated, info)."""

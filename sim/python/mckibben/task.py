@@ -148,6 +148,10 @@ class Episode:
         self.last = self.read(counted)
         return self.seen(0.0)
 
+    def resting(self):
+        """The commands under which an episode begins at rest."""
+        return [zero for zero, _ in self.ranges]
+
     def commands(self, action):
         """What the DAC gives each muscle for an action."""
         self.action = [min(1.0, max(-1.0, one)) for one in action]
