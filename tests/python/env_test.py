@@ -71,6 +71,8 @@ class Env(unittest.TestCase):
         for _ in range(100):
             ride.step(info["current_1_mA"], opposite_command=info["current_2_mA"])
         self.assertEqual(numpy.float32(ride.reading.angle_rad), angle)
+        self.assertAlmostEqual(info["true_angle_rad"], angle, delta=0.005)  # a count
+        self.assertNotIn("true_contraction_ratio", info)
         self.assertAlmostEqual(target, numpy.radians(15.0) * numpy.sin(2.0 * numpy.pi * 1.2 / 4.0), places=6)
         self.assertEqual(action, [numpy.float32(0.3), numpy.float32(-0.3)])
         self.assertAlmostEqual(reward, -100.0 * abs(float(angle) - float(target)), places=3)

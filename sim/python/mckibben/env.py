@@ -123,7 +123,8 @@ class Env(Base):
         return self.task.observation(seen), dict(self.episode.info)
 
     def step(self, action):
-        """A tick: (observation, reward, terminated, truncated, info)."""
+        """A tick: (observation, reward, terminated, truncated, info). info has commands, time_s, and
+        true_contraction_ratio or, of a pair, true_angle_rad: what is read, before it is counted."""
         if self.ride is None:
             raise RuntimeError("reset comes before the first step")
         if self.ended:
@@ -137,7 +138,7 @@ class Env(Base):
             terminated, info["failure"] = True, str(failure)
         seen, reward, truncated = self.episode.arrive(self._counted())
         self.ended = terminated or truncated
-        info.update(time_s=self.ride.time_s, true_contraction_ratio=float(self.ride.state[0]))
+        info.update(self.episode.truth(self.ride), time_s=self.ride.time_s)
         self.rows.append((self.ride.time_s, self.episode.target[self.episode.tick], self.episode.last, *commands, reward))
         return self.task.observation(seen), reward, terminated, truncated, info
 

@@ -142,11 +142,23 @@ class Episode:
         self.wanted, self.tick_s = self.target.tolist(), self.rig.tick_s
         self.ranges = [self.rig.command_range, self.rig.opposite_command_range][:2 if task.pair else 1]
         self.tick, self.action, self.last = 0, [-1.0] * len(self.ranges), 0.0
+        if task.pair:  # the contraction ratio of the first muscle at 0 rad, and the angle that one of 1 more turns
+            keys = self.rig.to_dict()
+            self.middle, length_m, radius_m = (float(str(value).split()[0]) for value in (
+                keys["mechanics"]["contraction_1"], keys["muscle"]["rest_length"], keys["joint"]["wheel_radius"]))
+            self.rad = length_m / radius_m
         self.info = {"time_s": 0.0} if task.pair else {"load_kg": self.load_kg, "time_s": 0.0}
 
     def begin(self, counted):
         self.last = self.read(counted)
         return self.seen(0.0)
+
+    def truth(self, ride):
+        """What is read, before it is counted, as info has it."""
+        contraction = float(ride.state[0])
+        if not self.task.pair:
+            return {"true_contraction_ratio": contraction}
+        return {"true_angle_rad": (contraction - self.middle) * self.rad}
 
     def resting(self):
         """The commands under which an episode begins at rest."""
