@@ -314,6 +314,13 @@ class VectorEnv(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "reset_mask"):
                 envs.reset(options={"reset_mask": mask})
 
+    def test_each_has_its_load(self):
+        envs = mckibben.VectorEnv(3, duration_s=0.6)
+        self.assertEqual(envs.reset(options={"load_kg": [8, 9, 10]})[1]["load_kg"].tolist(), [8.0, 9.0, 10.0])
+        self.assertEqual(envs.reset(options={"load_kg": 9})[1]["load_kg"].tolist(), [9.0] * 3)
+        with self.assertRaisesRegex(ValueError, "one for each of 3 members"):
+            envs.reset(options={"load_kg": [8, 9]})
+
     def test_one_that_fails_is_terminated_alone(self):
         falls = {"muscle": {"stop_stiffness": "1e5 N/m"},
                  "effects": {"residual_law": {"terms": [{"of": "m g", "coefficient": "-800 N"}]}}}

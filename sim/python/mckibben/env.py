@@ -195,13 +195,21 @@ class VectorEnv(VectorBase):
 
     def reset(self, *, seed=None, options=None):
         """New episodes: (observations, infos). A seed is that of the first member, the next one has seed + 1; or one
-        for each. With options {"reset_mask": booleans} these alone begin again, and the others stay where they are."""
+        for each. With options {"reset_mask": booleans} these alone begin again, and the others stay where they are;
+        {"load_kg": ...} is one for all, or one for each member."""
         options = dict(options or {})
         mask = options.pop("reset_mask", None)
         seeds = [seed] * self.num_envs if numpy.ndim(seed) == 0 else list(seed)
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed = {seed!r}: one number, or one for each of {self.num_envs} members")
-        self.task.check(options, *seeds)
+        loads = options.get("load_kg")
+        each = [options] * self.num_envs
+        if numpy.ndim(loads):
+            if numpy.shape(loads) != (self.num_envs,):
+                raise ValueError(f"options: load_kg = {loads!r}: one mass, or one for each of {self.num_envs} members")
+            each = [{**options, "load_kg": load} for load in numpy.asarray(loads).tolist()]
+        for one in each:
+            self.task.check(one, *seeds)
         super().reset(seed=None if seed is None or numpy.ndim(seed) else int(seed))
         if mask is not None:
             mask = numpy.asarray(mask)
@@ -214,7 +222,7 @@ class VectorEnv(VectorBase):
             if seeds[i] is not None:
                 self.random[i] = numpy.random.default_rng(int(seeds[i]) + (0 if numpy.ndim(seed) else int(i)))
         infos = {}
-        self.observations = self._begin(numpy.flatnonzero(mask), options, infos)
+        self.observations = self._begin(numpy.flatnonzero(mask), each, infos)
         return self.observations.copy(), infos
 
     def step(self, actions):
@@ -252,7 +260,7 @@ class VectorEnv(VectorBase):
                 self._note(infos, ended, {"final_obs": [self.observations[i].copy() for i in ended]})
                 infos["final_info"], infos["_final_info"] = final, waiting.copy()
         if self.autoreset_mode != AutoresetMode.DISABLED and waiting.any():
-            self._begin(numpy.flatnonzero(waiting), {}, infos)
+            self._begin(numpy.flatnonzero(waiting), [{}] * self.num_envs, infos)
         return self.observations.copy(), rewards, terminations, truncations, infos
 
     def render(self):
@@ -264,7 +272,7 @@ class VectorEnv(VectorBase):
     def _begin(self, which, options, infos):
         """New episodes of these members; all observations."""
         for i in which:
-            self.episodes[i] = Episode(self.task, self.random[i], options)
+            self.episodes[i] = Episode(self.task, self.random[i], options[i])
         rigs, loads_kg = [self.episodes[i].rig for i in which], [self.episodes[i].load_kg for i in which]
         if len(which) == self.num_envs:
             self.batch = Batch(rigs, loads_kg, self.threads)
