@@ -1,6 +1,11 @@
 // Rows of a recording as NumPy arrays: the names and units of its file.
+#include <string_view>
 #include <tuple>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <sim/input/suggest.hpp>
 #include <sim/python/pickles.hpp>
 #include <sim/python/recordings.hpp>
 
@@ -10,7 +15,13 @@ namespace {
 const plant::Channel& channel_of(const Simulated& run, const std::string& name) {
   for (const plant::Channel& channel : run.channels)
     if (channel.name() == name) return channel;
-  throw py::key_error(name);
+  if (name == "target") throw py::key_error("target: is no column; it is run.target, a value for each row");
+  std::vector<std::string> names;
+  for (const plant::Channel& channel : run.channels) names.push_back(channel.name());
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const auto best = input::nearest(name, known);
+  throw py::key_error(best ? fmt::format("{}: no such column; did you mean {}?", name, *best)
+                           : fmt::format("{}: no such column; there are {}", name, fmt::join(names, ", ")));
 }
 
 py::dtype type_of(const plant::Channel& channel) {

@@ -26,6 +26,13 @@ class Runs(unittest.TestCase):
     def setUpClass(cls):
         cls.result = mckibben.Scenario(SCENARIO).run()
 
+    def test_an_unknown_column_is_answered(self):
+        run = mckibben.Scenario(SCENARIO).run().runs[0]
+        for name, said in (("contraction_rato", "contraction_rato: no such column; did you mean contraction_ratio"),
+                           ("target", "it is run.target"), ("qqqqqqqqqqqq", "there are time_s, ")):
+            with self.assertRaisesRegex(KeyError, said):
+                run[name]
+
     def test_are_those_of_the_command_line_to_the_bit(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "scenario.yaml"
