@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
@@ -181,6 +182,28 @@ int make_ensemble(const Options& options, const domain::Campaign& campaign, run:
   });
 }
 
+/// What a student is to find, and what the rig that is handed out tells already.
+std::string hidden_in_words(const domain::Campaign& campaign) {
+  std::vector<std::string> hidden, told;
+  const auto sort = [&](const plant::Effects& there, const plant::Effects& known, const char* whose) {
+    std::apply(
+        [&](const auto&... effect) {
+          const auto one = [&]<class E>(const E& e) {
+            if (!e.absent())
+              (known.get<E>().absent() ? hidden : told).push_back(std::string(E::name) + whose);
+          };
+          (one(effect), ...);
+        },
+        there.all);
+  };
+  const plant::Pair* pair = campaign.rig.pair();
+  sort(campaign.rig.effects, campaign.known.effects, pair != nullptr ? " of muscle 1" : "");
+  if (pair != nullptr) sort(pair->opposite.effects, campaign.known.pair()->opposite.effects, " of muscle 2");
+  return fmt::format("hidden: {}{}",
+                     hidden.empty() ? "no effect" : fmt::format("{}", fmt::join(hidden, ", ")),
+                     told.empty() ? "" : fmt::format("; in rig.yaml stands {}", fmt::join(told, ", ")));
+}
+
 int make_campaign(const DatasetOptions& options, const domain::Campaign& campaign) {
   const auto where = place_of(options, campaign, {"", "-truth", ".unfinished", ".ranks"});
   cluster::Workplace place(where.string() + ".ranks", cluster::crew(), say);
@@ -196,7 +219,8 @@ int make_campaign(const DatasetOptions& options, const domain::Campaign& campaig
     });
     warn(run::warnings_of(runs));
     print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});
-    fmt::print(stderr, "data set in {}, truth in {}\n", folder.data().string(), folder.truth().string());
+    fmt::print(stderr, "data set in {}, truth in {}; {}\n", folder.data().string(), folder.truth().string(),
+               hidden_in_words(campaign));
     return any_failed(runs) ? failure : done;
   });
 }

@@ -99,6 +99,7 @@ Json dataset_json(const plant::Rig& rig, const std::string& name, const std::vec
 Json truth_json(const domain::Campaign& campaign, const std::vector<run::EndedRun>& runs) {
   return {{"schema", "mckibben-truth/1"},
           {"seed", campaign.seed},
+          {"input_files", heading_json("", campaign.inputs)["input_files"]},
           {"noise", input::to_json(campaign.noise, {campaign.rig.command_unit()})},
           {"rig", input::to_json(campaign.rig)},
           {"runs", runs_json(campaign.rig, runs)}};
@@ -113,6 +114,7 @@ std::string json_of(const domain::Campaign& campaign, const std::vector<run::End
   known.rig = known.known;
   document["campaign"] = input::campaign_json(known);
   document["campaign"].erase("noise");
+  document.erase("input_files");  // their names may tell what is hidden
   document["runs"] = Json::array();
   for (const auto& run : runs) document["runs"].push_back(entry_json(campaign, run));
   return text_of(document);

@@ -212,7 +212,7 @@ std::string bode_svg(const Linearised& all, const Study& study) {
   draw(left, 0, 1, angle ? "command to angle" : "command to contraction ratio",
        fmt::format("gain [dB re {}/{}]", angle ? "1 rad" : "1", unit), false);
   if (curves.size() > 1) draw(right, 1, curves.size(), "open loops", "gain [dB]", true);
-  Rows names(right[0], right[1], 40.0);
+  Rows names(left[0], right[1], 42.0);
   for (std::size_t c = 1; c < curves.size(); ++c) {
     const auto [x, y] = names.next(16.0 + width_px(curves[c].name, 12.0));
     svg += fmt::format("<text x='{:.0f}' y='{:.0f}' fill='{}'>{}</text>\n", x, y, colours[c % colours.size()],

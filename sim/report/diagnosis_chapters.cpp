@@ -103,13 +103,14 @@ std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
 std::string ranking_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.ranking.empty()) return "";
   return paragraph(
-             "Every effect of the catalogue is scored: how far the misfit would fall with a little of it, "
-             "beyond what the nominal parameters can imitate (dashed bars); an effect that would have to act "
-             "the wrong way round has none. The best of two screenings, of the rig as described and as "
-             "recalibrated, are fitted: their full bars show how far the misfit did fall, and under them "
-             "stands what came of it, with the error left on the runs held out. Left of the dashed line a "
-             "fall is chance, and nothing is taken from there. Once one is taken, all others are tried again "
-             "in a further round. All bars have one logarithmic scale.") +
+             "Every candidate is scored: how far straight lines promise that the misfit falls with it, "
+             "beyond "
+             "what the rig's parameters can imitate (dashed bars); one that would have to act the wrong way "
+             "round has none. Those that promise most are fitted: their full bars show how far the misfit "
+             "did "
+             "fall from that of the fitted parameters, and under them stands what came of it, with the error "
+             "left on the runs held out. Left of the dashed line a fall is chance. All bars have one "
+             "logarithmic scale.") +
          figures_html(ranking_pictures(diagnosis, rig));
 }
 

@@ -134,7 +134,7 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
   // What a fit made of it; where there is none, what the score promises.
   const auto fall = [](const diagnose::Ranked& one) { return one.refitted ? one.fall : one.score; };
   double most = 10.0 * diagnose::thresholds.tell.chance;
-  for (const auto& one : diagnosis.ranking) most = std::max(most, fall(one));
+  for (const auto& one : diagnosis.ranking) most = std::max({most, one.fall, one.score});
   const auto length = [&](double value) { return span * std::log(std::max(value, 1.0)) / std::log(most); };
   const auto rounds = grouped(diagnosis.ranking, [](const auto& one) { return one.round; });
   std::vector<Picture> pictures;
@@ -155,10 +155,13 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
       }
       const bool taken = one->outcome.starts_with("taken");
       bars += label(x0 - 8, y + 13, "end", full_name(*one), taken ? "strong" : "");
-      const double end = length(fall(*one));
+      const auto in_digits = [](double value) { return rounded(value, std::abs(value) < 100.0 ? 1 : 0); };
+      const bool promised = one->refitted && one->score > one->fall;
+      const double end = length(fall(*one)), reach = promised ? length(one->score) : end;
+      if (promised) bars += bar(x0, y + 2, reach, 13.0, "empty");
       bars += bar(x0, y + 2, end, 13.0, !one->refitted ? "empty" : taken ? "bar c0" : "bar");
-      bars += label(x0 + end + 5, y + 13, "start", rounded(fall(*one), std::abs(fall(*one)) < 100.0 ? 1 : 0),
-                    "soft halo");
+      bars += label(x0 + reach + 5, y + 13, "start",
+                    in_digits(fall(*one)) + (promised ? " of " + in_digits(one->score) : ""), "soft halo");
       y += 21.0;
       if (!one->refitted) continue;
       bars += marked_label(width - 4, y + 7, "end",

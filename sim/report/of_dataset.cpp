@@ -159,18 +159,19 @@ void add_parts(Contents& contents, const domain::Campaign& campaign, const std::
 std::string report_html(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended,
                         const domain::Dataset& dataset) {
   const bool pair = dataset.rig.pair() != nullptr;
-  Contents contents{.title = campaign.name,
-                    .about = "Synthetic measurements: what encoder, current output and gauge say",
-                    .warnings = run::warnings_of(ended),
-                    .details = output::table_of(campaign, ended),
-                    .beside =
-                        "Every number of every tick is in the CSV files of this folder; input, versions and "
-                        "hashes are in campaign.json, the truth in a folder of its own.",
-                    .lengths = !dataset.rig.has_angle(),
-                    .rig = dataset.rig,
-                    .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
-                    .plots = measured_plots(dataset.rig, pair),
-                    .loops = measured_loops(pair)};
+  Contents contents{
+      .title = campaign.name,
+      .about = "Synthetic measurements: what encoder, current output and gauge say",
+      .warnings = run::warnings_of(ended),
+      .details = output::table_of(campaign, ended),
+      .beside =
+          "Every number of every tick is in the CSV files of this folder; input and versions are in "
+          "campaign.json, the truth and hashes in a folder of its own.",
+      .lengths = !dataset.rig.has_angle(),
+      .rig = dataset.rig,
+      .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
+      .plots = measured_plots(dataset.rig, pair),
+      .loops = measured_loops(pair)};
   add_parts(contents, campaign, ended, dataset);
   return html_of(contents);
 }

@@ -122,13 +122,16 @@ TEST(DiagnosisPictures, BarsOfAllRoundsHaveOneScaleAndNothingIsDrawnBelowChanceT
   EXPECT_TRUE(holds(rounds[1].caption, "supply_line"));
 }
 
-// The statistic by which an effect was taken is the one that is drawn: how far the misfit fell, not what the
-// score at the rig as described had promised.
+// How far the misfit fell is drawn full; what straight lines had promised lies dashed behind it.
 TEST(DiagnosisPictures, WhatWasTakenLiesBeyondChance) {
   diagnose::Diagnosis found = diagnosed();
   found.ranking = {{"muscle_leak", "", 1, 9.0, 1.0, true, 0.0009, 0.0010, "taken: the best fit", 10000.0}};
   const std::string svg = ranking_pictures(found, {}).front().svg;
   EXPECT_TRUE(holds(svg, "width='200.0' height='13.0' class='bar c0'", ">10000<"));
+  found.ranking.front().score = 1e8;
+  const std::string promised = ranking_pictures(found, {}).front().svg;
+  EXPECT_TRUE(holds(promised, "width='200.0' height='13.0' class='empty'",
+                    "width='100.0' height='13.0' class='bar c0'", ">10000 of 100000000<"));
 }
 
 TEST(DiagnosisPage, AsksForNothingMoreOnlyWhereNothingIsLeft) {
