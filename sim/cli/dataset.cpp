@@ -18,6 +18,7 @@
 #include <sim/data/judged.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/fields_json.hpp>
 #include <sim/output/campaign_folder.hpp>
 #include <sim/output/ensemble_folder.hpp>
 #include <sim/output/run_results.hpp>
@@ -182,25 +183,23 @@ int make_ensemble(const Options& options, const domain::Campaign& campaign, run:
   });
 }
 
-/// What a student is to find, and what the rig that is handed out tells already.
+/// What a student is to find: where the rig that is handed out is not the campaign's (campaign_file.cpp). And
+/// which effects it has already.
 std::string hidden_in_words(const domain::Campaign& campaign) {
   std::vector<std::string> hidden, told;
   const auto sort = [&](const plant::Effects& there, const plant::Effects& known, const char* whose) {
-    std::apply(
-        [&](const auto&... effect) {
-          const auto one = [&]<class E>(const E& e) {
-            if (!e.absent())
-              (known.get<E>().absent() ? hidden : told).push_back(std::string(E::name) + whose);
-          };
-          (one(effect), ...);
-        },
-        there.all);
+    const input::Json effects = input::to_json(there), handed_out = input::to_json(known);
+    for (const auto& [name, numbers] : effects.items())
+      (handed_out.value(name, input::Json()) == numbers ? told : hidden).push_back(name + whose);
+    for (const auto& [name, numbers] : handed_out.items())
+      if (!effects.contains(name)) hidden.push_back("no " + name + whose);
   };
-  const plant::Pair* pair = campaign.rig.pair();
-  sort(campaign.rig.effects, campaign.known.effects, pair != nullptr ? " of muscle 1" : "");
-  if (pair != nullptr) sort(pair->opposite.effects, campaign.known.pair()->opposite.effects, " of muscle 2");
-  return fmt::format("hidden: {}{}",
-                     hidden.empty() ? "no effect" : fmt::format("{}", fmt::join(hidden, ", ")),
+  const plant::Rig &rig = campaign.rig, &known = campaign.known;
+  const bool pair = rig.pair() != nullptr;
+  sort(rig.effects, known.effects, pair ? " of muscle 1" : "");
+  if (pair) sort(rig.pair()->opposite.effects, known.pair()->opposite.effects, " of muscle 2");
+  if (rig.joint.load_offset_kg != known.joint.load_offset_kg) hidden.emplace_back("joint.load_offset");
+  return fmt::format("hidden: {}{}", hidden.empty() ? "nothing" : fmt::format("{}", fmt::join(hidden, ", ")),
                      told.empty() ? "" : fmt::format("; in rig.yaml stands {}", fmt::join(told, ", ")));
 }
 

@@ -94,6 +94,23 @@ TEST_F(Dataset, KeepsTheEffectsOfItsBase) {
   EXPECT_TRUE(holds(read_text(scratch / "out/small-truth/truth.yaml"), "bladder_elasticity", "muscle_leak"));
 }
 
+TEST_F(Dataset, SaysWhatIsHiddenByValue) {
+  int made = 0;
+  const auto said_of = [&](const std::string& rig) {
+    std::string text = small_campaign;
+    text.replace(text.find("{gauge: {fitted: true}}"), 23, rig);
+    write_text(scratch / "small.yaml", text);
+    return run("dataset small.yaml --out out/" + std::to_string(++made)).err;
+  };
+  EXPECT_TRUE(holds(said_of("{base: festo_dmsp_20, joint: {load_offset: 0.5 kg}}"),
+                    "hidden: joint.load_offset; in rig.yaml stands bladder_elasticity"));
+  EXPECT_TRUE(holds(said_of("{base: festo_dmsp_20, effects: {bladder_elasticity: {force: 333 N}}}"),
+                    "hidden: bladder_elasticity\n"));
+  EXPECT_TRUE(holds(said_of("{base: festo_dmsp_20, effects: {bladder_elasticity: {force: 0 N}}}"),
+                    "hidden: no bladder_elasticity\n"));
+  EXPECT_TRUE(holds(said_of("thesis"), "hidden: nothing\n"));
+}
+
 TEST_F(Dataset, ALoadOfNothingIsWrittenToo) {
   std::string text = small_campaign;
   text.replace(text.find("{gauge: {fitted: true}}"), 23, "{joint: {moving_mass: 11 kg}}");
