@@ -42,4 +42,5 @@ with tempfile.TemporaryDirectory() as home:
         sizes.append(size['value'])
         assert max(errors(data)) > 3 * noise_rad
         assert max(errors(data, '--rig', data / 'found' / 'rig.yaml')) < 1.15 * noise_rad
-    assert abs(sizes[0] - sizes[1]) < 0.01 * leak, sizes
+    # Muscle 2 is described by how it differs from muscle 1: priors are not mirrored to the last digit.
+    assert abs(sizes[0] - sizes[1]) < 0.1 * (size['ci95'][1] - leak), sizes
