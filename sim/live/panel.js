@@ -134,7 +134,10 @@ function showHidden() {
   byId('guess-line').hidden = byId('give-up').hidden = !one;
   if (one) offer(hidden());
   byId('guess').value = '';
-  if (one) say('One effect is at work. Move the rig, look at the loops, and choose which one it is.');
+  const others = pair ? '' : ' and another load';
+  if (one)
+    say('One effect is at work. Look at the loops, and choose which one it is. ' +
+        `If nothing shows, try stairs${others}.`);
 }
 
 /** A few to choose from, the hidden one among them, the same in all pages; then all others. */
