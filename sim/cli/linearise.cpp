@@ -93,7 +93,7 @@ LinearTask read_task(const LineariseOptions& options) {
 }
 
 /// "10 mA", "2.5 bar", "0.15", "20 deg": the unit says what it is.
-linear::Place place_of(const std::string& text, const plant::Rig& rig) {
+linear::Place place_of(std::string_view option, const std::string& text, const plant::Rig& rig) {
   using Of = linear::Place::Of;
   const auto as = [&](std::string_view unit) -> std::optional<double> {
     try {
@@ -110,11 +110,17 @@ linear::Place place_of(const std::string& text, const plant::Rig& rig) {
   } else if (const auto Pa = as("Pa")) {
     return {Of::pressure, *Pa};
   }
-  if (const auto position = as(rig.has_angle() ? "rad" : "1")) return {Of::position, *position};
+  if (const auto position = as(rig.has_angle() ? "rad" : "1")) {
+    if (!rig.has_angle() && *position >= 1.0 && !text.ends_with('%'))
+      throw CLI::ValidationError(
+          fmt::format("{} {}: no contraction ratio is as large; did you mean \"{} {}\"?", option, text, text,
+                      name_of(unit)));
+    return {Of::position, *position};
+  }
   if (const auto length_m = rig.has_angle() ? std::nullopt : as("m"))
     return {Of::position, *length_m / rig.muscle.rest_length_m};
   throw CLI::ValidationError(
-      fmt::format("--at {}: no command as \"10 {}\"{} and no {}", text, name_of(unit),
+      fmt::format("{} {}: no command as \"10 {}\"{} and no {}", option, text, name_of(unit),
                   unit == plant::CommandUnit::bar ? "" : ", no pressure as \"2.5 bar\"",
                   rig.has_angle() ? "joint angle as \"20 deg\"" : "contraction as 0.15 or \"45 mm\""));
 }
@@ -122,7 +128,7 @@ linear::Place place_of(const std::string& text, const plant::Rig& rig) {
 linear::Question question_of(const LineariseOptions& options, const plant::Rig& rig) {
   linear::Question question;
   if (!options.places.empty()) question.places.clear();
-  for (const auto& text : options.places) question.places.push_back(place_of(text, rig));
+  for (const auto& text : options.places) question.places.push_back(place_of("--at", text, rig));
   if (options.friction == "sticking") question.threads = linear::Threads::sticking;
   if (options.valve == "filling") question.opening = linear::Opening::filling;
   if (options.valve == "venting") question.opening = linear::Opening::venting;
@@ -130,9 +136,10 @@ linear::Question question_of(const LineariseOptions& options, const plant::Rig& 
   if (!options.margins.empty())
     question.margins = linear::Wanted{.phase_rad = positive_quantity(options.margins, "rad", 1.5)};
   if (!options.lqr.empty()) {
-    const linear::Place one = place_of(options.lqr, rig);
+    const linear::Place one = place_of("--lqr", options.lqr, rig);
     if (one.of != linear::Place::Of::command || !(one.value > 0.0))
-      throw CLI::ValidationError(fmt::format("--lqr {}: a command is wanted", options.lqr));
+      throw CLI::ValidationError(fmt::format("--lqr {}: a command is wanted, as \"1 {}\"", options.lqr,
+                                             name_of(rig.command_unit())));
     question.lqr = linear::Weights{rig.has_angle() ? plant::degree_rad : 0.01, one.value};
   }
   return question;

@@ -12,7 +12,8 @@ bool is_linear(const controllers::Settings& settings) {
 Study study(const plant::Rig& rig, double load_kg, const Place& place, const Question& question,
             std::span<const controllers::Settings> controllers) {
   Study result{.point = point_at(rig, load_kg, place, question.threads, question.opening), .loops = {}};
-  if (question.swing_m_per_s) result.point = result.point.swinging(*question.swing_m_per_s);
+  const Point still = result.point;
+  if (question.swing_m_per_s) result.point = still.swinging(*question.swing_m_per_s);
   const Point& point = result.point;
   const auto add = [&](const std::string& name, const System& open) -> Loop& {
     return result.loops.emplace_back(name, open, margins_of(open));
@@ -22,7 +23,7 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
     const auto& pid = *controllers::part_of<controllers::PidForm>(each);
     const auto* filter = filter_of(each);
     Loop& loop = add(name_of(each), loop_of(point, pid, rig.tick_s, filter));
-    if (!loop.margins.stable) loop.calmed_m_per_s = calmed_m_per_s(point, pid, rig.tick_s, filter);
+    if (!loop.margins.stable) loop.calmed_m_per_s = calmed_m_per_s(still, pid, rig.tick_s, filter);
   }
   if (question.margins)
     if (const auto found = pid_by_margins(point, rig.tick_s, *question.margins)) {

@@ -35,12 +35,13 @@ std::string root_lines(const char* what, const std::vector<Complex>& roots) {
   return text;
 }
 
-std::string margins_line(const linear::Loop& loop) {
+std::string margins_line(const linear::Loop& loop, bool in_a_swing) {
   const linear::Margins& has = loop.margins;
   if (!has.stable && loop.calmed_m_per_s > 0.0)
     return fmt::format(
-        "  {:18} unstable without friction; swings slower than {:.3g} m/s die out (see --swing)\n", loop.name,
-        loop.calmed_m_per_s);
+        "  {:18} unstable {}; swings slower than {:.3g} m/s die out: --swing \"{:.2g} m/s\" gives margins\n",
+        loop.name, in_a_swing ? "in this swing" : "without friction", loop.calmed_m_per_s,
+        0.5 * loop.calmed_m_per_s);
   if (!has.stable) return fmt::format("  {:18} unstable\n", loop.name);
   const auto at = [](double rad_per_s) { return fmt::format("at {:.3g} Hz", rad_per_s / turn_rad); };
   const std::string gain = has.gain ? fmt::format("{:.3g} ({:.1f} dB) {}", *has.gain,
@@ -101,7 +102,7 @@ std::string of_study(const Linearised& all, const Study& study) {
     text += fmt::format("  delays: command {:.4g} s, reading {:.4g} s\n", point.command_delay_s,
                         point.reading_delay_s);
   if (!study.loops.empty()) text += fmt::format("  {:18} {:30} {}\n", "loop", "gain margin", "phase margin");
-  for (const auto& loop : study.loops) text += margins_line(loop);
+  for (const auto& loop : study.loops) text += margins_line(loop, all.question.swing_m_per_s.has_value());
   if (all.question.margins)
     text += study.by_margins ? "  " + pid_line(all, study) + "\n" : "  no PID has these margins here\n";
   if (all.question.lqr) text += lqr_line(study, unit);

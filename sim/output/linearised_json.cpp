@@ -165,9 +165,20 @@ std::string bode_svg(const Linearised& all, const Study& study) {
   constexpr double width = 860.0, height = 560.0, upper[] = {70.0, 280.0}, lower[] = {310.0, 510.0};
   constexpr double left[] = {80.0, 410.0}, right[] = {500.0, 830.0};
   const std::vector<Curve> curves = curves_of(all, study);
-  std::string svg =
-      svg_begin(width, height) + fmt::format("<text x='{}' y='24' font-weight='bold'>{}</text>\n", left[0],
-                                             escaped(all.name + ", " + title_of(all, study)));
+  Rows names(left[0], right[1], 42.0);
+  const double first_px = names.bottom_px();
+  std::string keys;
+  for (std::size_t c = 1; c < curves.size(); ++c) {
+    const auto [x, y] = names.next(16.0 + width_px(curves[c].name, 12.0));
+    keys += fmt::format("<text x='{:.0f}' y='{:.0f}' fill='{}'>{}</text>\n", x, y,
+                        colours[c % colours.size()], escaped(curves[c].name));
+  }
+  const double further_px = names.bottom_px() - first_px;  // rows of names push the panels down
+  std::string svg = svg_begin(width, height + further_px) +
+                    fmt::format(
+                        "<text x='{}' y='24' font-weight='bold'>{}</text>\n{}"
+                        "<g transform='translate(0 {:.0f})'>\n",
+                        left[0], escaped(all.name + ", " + title_of(all, study)), keys, further_px);
   const auto draw = [&](const double* across, std::size_t first, std::size_t end, const std::string& heading,
                         const std::string& gain_words, bool with_bounds) {
     Panel gain{.x = {across[0], across[1]}, .y = {upper[1], upper[0]}, .words_px = 52.0};
@@ -212,13 +223,7 @@ std::string bode_svg(const Linearised& all, const Study& study) {
   draw(left, 0, 1, angle ? "command to angle" : "command to contraction ratio",
        fmt::format("gain [dB re {}/{}]", angle ? "1 rad" : "1", unit), false);
   if (curves.size() > 1) draw(right, 1, curves.size(), "open loops", "gain [dB]", true);
-  Rows names(left[0], right[1], 42.0);
-  for (std::size_t c = 1; c < curves.size(); ++c) {
-    const auto [x, y] = names.next(16.0 + width_px(curves[c].name, 12.0));
-    svg += fmt::format("<text x='{:.0f}' y='{:.0f}' fill='{}'>{}</text>\n", x, y, colours[c % colours.size()],
-                       escaped(curves[c].name));
-  }
-  return svg + "</svg>\n";
+  return svg + "</g>\n</svg>\n";
 }
 
 }  // namespace mckibben::output

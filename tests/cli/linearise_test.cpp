@@ -57,7 +57,16 @@ TEST_F(Linearise, SaysPolesAndMarginsAndWritesWhatItSays) {
   EXPECT_FALSE(soft.contains("binding_margin"));
   EXPECT_EQ(point.at("lqr").size(), 4u);
   const std::string table = read_text(folder / "table.txt");
+  const std::string way_out = " m/s die out: --swing \"";
   EXPECT_TRUE(holds(table, "wild               unstable without friction; swings slower than"));
+  ASSERT_TRUE(holds(table, way_out));
+  const std::string from_speed = table.substr(table.find(way_out) + way_out.size());
+  const std::string swing = " --swing '" + from_speed.substr(0, from_speed.find('"')) + "'";
+  const auto calmer = result_of("loops.yaml --at 0.15" + swing).at("points").at(0).at("loops").at(1);
+  EXPECT_GT(calmer.at("gain_margin").get<double>(), 1.0) << swing;
+  result_of("loops.yaml --at 0.15 --swing '5 m/s'");
+  EXPECT_TRUE(
+      holds(read_text(folder / "table.txt"), "wild               unstable in this swing; swings slower"));
   EXPECT_TRUE(holds(table, point.at("pid_by_margins").get<std::string>()));
   EXPECT_TRUE(holds(table, "; the gain margin binds\n"));
 }
@@ -179,6 +188,27 @@ TEST_F(Linearise, SaysWhatItCannotDo) {
   EXPECT_EQ(unit.status, 64);
   EXPECT_TRUE(
       holds(unit.err, "--at 10 kg: no command as \"10 mA\", no pressure as \"2.5 bar\" and no contraction"));
+  EXPECT_TRUE(holds(run("linearise thesis --at 15").err,
+                    "--at 15: no contraction ratio is as large; did you mean \"15 mA\"?"));
+  EXPECT_TRUE(holds(run("linearise thesis --lqr 0.1").err, "--lqr 0.1: a command is wanted, as \"1 mA\""));
+}
+
+/// Where names take several rows, the panels and their headings stand below them.
+TEST_F(Linearise, NamesInABodePlotDoNotRunIntoItsHeadings) {
+  const auto drawn = [&](const std::string& list, double height) {
+    write_text(scratch / "named.yaml", list);
+    result_of("named.yaml --at 0.15");
+    const std::string svg = read_text(scratch / "out" / "named-linearise" / "bode.svg");
+    EXPECT_TRUE(holds(svg, "height='" + std::to_string(static_cast<int>(height)) + "'"))
+        << svg.substr(0, 200);
+    EXPECT_TRUE(holds(svg, "translate(0 " + std::to_string(static_cast<int>(height) - 560) + ")"));
+  };
+  std::string list = loops;
+  drawn(list, 560.0);
+  for (const char digit : {'1', '2', '3', '4', '5', '6'})
+    list += std::string("  - {kind: pid, name: a_loop_with_a_rather_long_name_") + digit +
+            ", proportional: 8 mA, integral_time: 0.2 s, derivative_time: 0.05 s}\n";
+  drawn(list, 560.0 + 2 * 18.0);
 }
 
 }  // namespace
