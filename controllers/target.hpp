@@ -171,8 +171,8 @@ struct SineOf {
   std::vector<double> knots_s() const;
 
   static void fields(auto& self, auto& visit) {
-    visit.required("mean", self.mean, "middle of the sine");
-    visit.required("amplitude", self.amplitude, "half of what lies between lowest and highest");
+    visit.required("mean", self.mean, "middle of the sine: (lowest + highest)/2");
+    visit.required("amplitude", self.amplitude, "half of what lies between: (highest - lowest)/2");
     visit.required("period", self.period_s, "s", 1e-3, 1e6, "time of one cycle");
     visit("delay", self.delay_s, "s", 0.0, 1e6, "time at the mean before the sine begins");
   }
