@@ -241,6 +241,25 @@ std::optional<std::size_t> ValueReader::kind(std::string_view key, const Node& n
   return choice("kind", *given, kinds);
 }
 
+namespace {
+
+/// Which verbs take a file of that kind, to hang on a message.
+std::string taken_by(std::string_view schema) {
+  static constexpr std::pair<std::string_view, std::string_view> kinds[] = {
+      {"scenario", "a scenario is for `run`, `control` or `linearise`"},
+      {"pair", "a scenario of a pair is for `run`, `control` or `linearise`"},
+      {"campaign", "a campaign is for `dataset`"},
+      {"dataset", "a data set is for `replay`, `diagnose` or `calibrate`"},
+      {"calibration", "a calibration is for `map`"},
+      {"hypothesis", "a hypothesis is for `diagnose --hypothesis`"},
+      {"rig", "a rig is for `live`, `linearise` or `fmu`; scenarios and campaigns name it: `rig: FILE`"}};
+  for (const auto& [kind, what] : kinds)
+    if (schema.starts_with(fmt::format("mckibben-{}/", kind))) return fmt::format("; {}", what);
+  return "";
+}
+
+}  // namespace
+
 bool begin_file(const YamlFile& file, std::string_view schema, Problems& problems) {
   problems.opened(file.source);
   problems.adopt(file.found);
@@ -253,11 +272,10 @@ bool begin_file(const YamlFile& file, std::string_view schema, Problems& problem
   if (given->kind == Node::Kind::scalar && given->text == schema) return true;
   const std::string found =
       given->kind == Node::Kind::scalar ? shortened(given->text) : std::string(given->kind_name());
+  const bool other_kind = found.substr(0, found.find('/')) != schema.substr(0, schema.find('/'));
   problems.error(file.source, given->place,
                  fmt::format("schema = {} is not what is read here: {}{}", found, schema,
-                             found.starts_with("mckibben-rig/") && schema.starts_with("mckibben-scenario/")
-                                 ? "; a scenario has this rig as `rig: FILE`"
-                                 : ""));
+                             other_kind ? taken_by(found) : ""));
   return false;
 }
 
