@@ -270,7 +270,7 @@ class Comparing {
         all.push_back(data::warning_of_run(id, stood));
       if (run.followed())
         for (const std::string& wrong :
-             {load_warning(run, settings_of(i)),
+             {load_warning(run, settings_of(i)), reading_warning(run, settings_of(i), scenario_.rig),
               missed_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig),
               cycle_warning(run, result_.targets[run.target], settings_of(i), scenario_.rig)})
           if (!wrong.empty()) all.push_back(data::warning_of_run(id, wrong));

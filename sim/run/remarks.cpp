@@ -18,6 +18,7 @@ constexpr double worth_saying = 0.01;
 constexpr double no_gain = 0.95;  // of the cost without feedback
 constexpr double missed = 0.2;    // of the target's range; five_loads ends within 0.17 of it
 constexpr double rests_s = 0.5;   // at the end, before it is judged there
+constexpr double misread = 0.1;   // of the mean absolute error
 
 /// Without the DAC's rounding, which would fill the text with digits.
 std::string command(double value, const plant::Rig& rig) {
@@ -161,6 +162,29 @@ std::string load_warning(const TrackedRun& run, const controllers::Settings& set
   return fmt::format("it takes its load of {} kg for {:.3g} kg: write assumed_load: {} kg{}", load,
                      believed_kg, load,
                      terms->assumed_load_kg ? "" : ", or a weighing or calibration that fits this rig");
+}
+
+std::string reading_warning(const TrackedRun& run, const controllers::Settings& settings,
+                            const plant::Rig& rig) {
+  const auto* weighs = controllers::part_of<controllers::CalibratedSettings>(settings);
+  const bool reads = controllers::part_of<controllers::PidForm>(settings) != nullptr ||
+                     controllers::part_of<controllers::GuestTerms>(settings) != nullptr ||
+                     (weighs != nullptr && !weighs->assumed_load_kg);  // others know the rig, or read nothing
+  std::string keys;
+  if (rig.joint.reading_offset_m != 0.0) keys = "joint.reading_offset";
+  if (!rig.effects.get<plant::EncoderScale>().absent())
+    keys += std::string(keys.empty() ? "" : " and ") + "effects.encoder_scale.error";
+  if (!reads || keys.empty() || !run.failure.empty() || run.recording.samples.empty()) return "";
+  double too_high = 0.0;
+  for (const Sample& sample : run.recording.samples) too_high += sample.misread_ratio;
+  too_high /= static_cast<double>(run.recording.samples.size());
+  if (rig.has_angle()) too_high *= rig.muscle.rest_length_m / rig.joint.wheel_radius_m;
+  if (std::abs(too_high) <= misread * run.metrics.mae) return "";
+  return fmt::format(
+      "it reads {:.2g} {} too {} in the mean ({}), which it cannot see: the errors, which are true ones, "
+      "have that in them, as on a bench that reads so; for one that reads right take it out of the rig",
+      std::abs(too_high) * (rig.has_angle() ? 1.0 / plant::degree_rad : 1e3 * rig.muscle.rest_length_m),
+      rig.has_angle() ? "deg" : "mm", too_high > 0.0 ? "high" : "low", keys);
 }
 
 std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,

@@ -36,6 +36,11 @@ std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const co
 /// weighing may be wrong: with the key to write. Empty if it is not.
 std::string load_warning(const TrackedRun& run, const controllers::Settings& settings);
 
+/// Of a controller that follows a reading, or weighs by it, whose zero or scale is wrong in the rig by more
+/// than a tenth of the mean absolute error: by how much, and the keys. Empty if it is not.
+std::string reading_warning(const TrackedRun& run, const controllers::Settings& settings,
+                            const plant::Rig& rig);
+
 /// Of a run that goes round and round where its target rests: amplitude, period, and the keys that would
 /// help. Empty if it does not, or if its limits say so.
 std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,

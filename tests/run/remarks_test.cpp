@@ -111,6 +111,34 @@ TEST(Remarks, AWrongLoadIsToldWhereverTheRunEnds) {
   EXPECT_EQ(load_warning(run, settings), "");
 }
 
+TEST(Remarks, AReadingThatIsOffIsToldWithItsKeyWhereAControllerUsesIt) {
+  plant::Rig rig;
+  rig.joint.reading_offset_m = 4.2e-3;
+  TrackedRun run{.load_kg = 16.0, .controller = "pid"};
+  run.recording.samples.resize(10);
+  for (Sample& sample : run.recording.samples) sample.misread_ratio = 0.014;
+  run.metrics.mae = 0.015;
+  EXPECT_EQ(
+      reading_warning(run, controllers::PidSettings{}, rig),
+      "it reads 4.2 mm too high in the mean (joint.reading_offset), which it cannot see: the errors, which "
+      "are true ones, have that in them, as on a bench that reads so; for one that reads right take it out "
+      "of the rig");
+  controllers::OpenLoopSettings weighs;
+  EXPECT_NE(reading_warning(run, weighs, rig), "");
+  weighs.assumed_load_kg = 16.0;
+  EXPECT_EQ(reading_warning(run, weighs, rig), "") << "it reads nothing";
+  EXPECT_EQ(reading_warning(run, controllers::ModelInverseFeedbackSettings{}, rig), "") << "its model has it";
+  run.metrics.mae = 0.15;
+  EXPECT_EQ(reading_warning(run, controllers::PidSettings{}, rig), "") << "hardly any of the error";
+
+  rig.joint.reading_offset_m = 0.0;
+  run.metrics.mae = 0.015;
+  EXPECT_EQ(reading_warning(run, controllers::PidSettings{}, rig), "") << "late";
+  rig.effects.get<plant::EncoderScale>().error = 0.05;
+  EXPECT_NE(reading_warning(run, controllers::PidSettings{}, rig).find("(effects.encoder_scale.error)"),
+            std::string::npos);
+}
+
 TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
   const plant::Rig rig;
   Wanted wanted;
