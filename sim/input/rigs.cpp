@@ -152,23 +152,24 @@ void require_pressures(const Source& source, const Node& valve, const plant::Val
   const auto is = [&](plant::ValveKind one) {
     return kind != nullptr ? kind->text == name_of(one) : base.kind == one;
   };
-  if (is(plant::ValveKind::on_off) || is(plant::ValveKind::none)) return;
+  if (!is(plant::ValveKind::servo) && !is(plant::ValveKind::regulator)) return;
   const auto require = [&](const char* key, const char* command_key, double base_Pa, double base_command,
-                           const char* usual) {
+                           const char* usual, const char* without) {
     const Node& command = *valve.find(command_key);
     if (valve.find(key) != nullptr) return;
     const bool is_pressure = command_in(&command)->first == plant::CommandUnit::bar;
     problems.error(
         source, command.place,
         fmt::format("{} = {}: the key {} is missing, the gauge pressure there: for example {}: {}; "
-                    "the base's {} is at {} {}",
+                    "the base's {} is at {} {}{}",
                     command_key, shortened(command.text), key, key,
                     is_pressure ? split_spread(command.text).value : usual,
                     show_limit(base_Pa, "Pa", "1 bar"), domain::write_number(base_command),
-                    name_of(base.command_unit)));
+                    name_of(base.command_unit), without));
   };
-  require("zero_pressure", "zero_command", base.zero_pressure_Pa, base.zero_command, "0 bar");
-  require("span_pressure", "span_command", base.span_pressure_Pa, base.span_command, "6 bar");
+  require("zero_pressure", "zero_command", base.zero_pressure_Pa, base.zero_command, "0 bar",
+          "; a flow valve (5/3) has none: kind: on_off, switching: averaged");
+  require("span_pressure", "span_command", base.span_pressure_Pa, base.span_command, "6 bar", "");
 }
 
 /// What a valve is commanded in stands behind its zero_command and span_command: both, where the base's is

@@ -85,6 +85,12 @@ TEST(Commands, InAnotherUnitAskForTheirPressures) {
   EXPECT_NE(missing.find("the key span_pressure is missing"), std::string::npos) << missing;
   EXPECT_NE(missing.find("span_pressure: 6 bar; the base's 5 bar is at 20 mA"), std::string::npos) << missing;
   EXPECT_EQ(missing.find("zero_pressure is missing"), std::string::npos) << missing;
+  EXPECT_NE(refusal_of("valve: {zero_command: 0 V, span_command: 10 V}")
+                .find("at 4 mA; a flow valve (5/3) has none: kind: on_off, switching: averaged"),
+            std::string::npos);
+  const std::string unknown = refusal_of("valve: {kind: MPYE, zero_command: 0 V, span_command: 10 V}");
+  EXPECT_NE(unknown.find("did you mean on_off?"), std::string::npos) << unknown;
+  EXPECT_EQ(unknown.find("pressure is missing"), std::string::npos) << unknown;
   EXPECT_NE(refusal_of("valve: {zero_command: 0 bar, span_command: 8 bar}").find("span_pressure: 8 bar"),
             std::string::npos);
   EXPECT_EQ(refusal_of("base: festo_dmsp_20\nvalve: {zero_command: 0 mA, span_command: 10 mA}"), "");
