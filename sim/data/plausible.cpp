@@ -62,6 +62,7 @@ class Plausible {
     for (run_ = 0; run_ < data_.runs.size(); ++run_) {
       map_ = with_our_names(domain::merged(data_.columns, run().columns), data_.rig.command_unit());
       if (run().measured && run().measured->point_s == 0.0) clock(run().measured->time_s);
+      if (!run().measured) command({&command_}, run().current_mA);
       if (run().measured)
         for (const domain::MeasuredColumn& column : run().measured->columns) look_at(column);
       else {
@@ -132,10 +133,28 @@ class Plausible {
       if (column.given && column.channel.signal->key == "muscle_pressure") given_pressure(key, column.values);
       return;
     }
+    if (column.given && column.channel.signal == &command_) command(column.channel, column.values);
     const bool position = key == "contraction" || key == "angle";
     if (!position || column.given) return;
     never_moves(key, column.values);
     grid(key, column.values);
+  }
+
+  /// What the valve does not answer to. Below its zero_command benches rest, the thesis's sines too.
+  void command(const plant::Channel& channel, const Series& values) {
+    const plant::Valve& valve = channel.muscle == 2 ? data_.rig.pair()->opposite.valve : data_.rig.valve;
+    const double slack = limits.beyond_span * (valve.span_command - valve.zero_command);
+    const Series commands = known(values);
+    if (commands.empty() || std::ranges::max(commands) <= valve.span_command + slack) return;
+    const std::string key = channel.key_in_dataset();
+    find(key, "beyond",
+         fmt::format(
+             "{0} goes up to {1:.4g} {4}, and the rig's valve answers to {2:.4g} to {3:.4g} {4}: above "
+             "that the simulated pressure does not change; are zero_command and span_command the "
+             "valve's, and unit and factor the column's?",
+             key, std::ranges::max(commands), valve.zero_command, valve.span_command,
+             name_of(data_.rig.command_unit())),
+         Severity::doubtful);
   }
 
   void never_moves(const std::string& key, const Series& values) {
@@ -287,6 +306,7 @@ class Plausible {
   }
 
   const domain::Dataset& data_;
+  const plant::Signal& command_ = plant::command_of(data_.rig.command_unit());
   std::size_t run_ = 0;
   domain::ColumnMap map_;
   std::vector<Finding> found_;

@@ -106,6 +106,7 @@ struct PlausibleThresholds {
   double most_gaps = 0.02;                               ///< of all rows: more are how it was recorded
   std::size_t least_rows = 10;
   double beyond_supply = 1.5, high_Pa = 1e6;  ///< that a given pressure reaches at most
+  double beyond_span = 0.01;                  ///< of a valve's range of commands: an offset of the DAC
   double lifts_nothing_Pa = 0.15e5, moves_far = 0.02;
   double least_atmosphere_Pa = 0.95e5, most_atmosphere_Pa = 1.06e5;
   double nearer = 1.0 / 3.0;  ///< of the error is left if a given pressure is taken as absolute

@@ -140,9 +140,11 @@ void load_recording(controllers::RecordedCurrent& recorded, const Source& source
 
 void complete_current(domain::CampaignWaveform& waveform, const Source& source, const Node& node,
                       const plant::Rig& rig, Problems& problems) {
-  if (auto* steps = std::get_if<controllers::StepCurrent>(&waveform)) steps->follow(working_range(rig));
   if (auto* recorded = std::get_if<controllers::RecordedCurrent>(&waveform))
     load_recording(*recorded, source, *node.find("file"), rig, problems);
+  auto settings = controllers::settings_as<controllers::Settings>(waveform);
+  follow_valve(settings, source, node, rig, problems);
+  waveform = controllers::settings_as<domain::CampaignWaveform>(settings);
 }
 
 }  // namespace mckibben::input

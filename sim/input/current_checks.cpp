@@ -1,5 +1,9 @@
 // Limits and currents of controllers and weighing; see the header.
+#include <algorithm>
+#include <optional>
 #include <string_view>
+#include <type_traits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -41,10 +45,17 @@ class CurrentChecker {
       return false;
     }
     if (low_mA < range_.lowest_mA)
-      warn(low_key, low_mA, fmt::format("below the valve's zero_command, {}", say_(range_.lowest_mA)));
-    if (high_mA > range_.highest_mA)
-      warn(high_key, high_mA, fmt::format("above {}, {}", top_, say_(range_.highest_mA)));
+      warn(place(low_key), low_key, low_mA,
+           fmt::format("below the valve's zero_command, {}", say_(range_.lowest_mA)));
+    not_above(place(high_key), high_key, high_mA);
     return true;
+  }
+
+  /// A command that the valve does not answer to, or the DAC does not give. Below zero_command benches rest,
+  /// as the thesis's sines do.
+  void not_above(Place place, std::string_view key, double mA) {
+    if (mA > range_.highest_mA)
+      warn(place, key, mA, fmt::format("above {}, {}", top_, say_(range_.highest_mA)));
   }
 
   void rest(double rest_mA, double low_mA, double high_mA) {
@@ -60,9 +71,9 @@ class CurrentChecker {
     const Node* given = node_.find(key);
     return given != nullptr ? given->place : node_.place;
   }
-  void warn(std::string_view key, double value_mA, const std::string& how) {
+  void warn(Place place, std::string_view key, double value_mA, const std::string& how) {
     problems_.warning(
-        source_, place(key),
+        source_, place,
         fmt::format("{} = {} is {}: from there on the pressure does not change", key, say_(value_mA), how));
   }
 
@@ -72,6 +83,31 @@ class CurrentChecker {
   std::string_view top_;
   Say say_;
   Problems& problems_;
+};
+
+/// Looks at what a waveform gives; the visitor of its fields.
+class GivenCommands {
+ public:
+  GivenCommands(const Node& node, CurrentChecker& checker) : node_(node), checker_(checker) {}
+
+  template <class T, class Unit>
+  void operator()(std::string_view key, const T& value, const Unit& unit, const auto&...) {
+    const Node* given = node_.find(key);
+    if (given == nullptr) return;
+    if constexpr (std::is_same_v<T, std::vector<controllers::CurrentMove>>)
+      for (std::size_t i = 0; i < value.size(); ++i) {
+        GivenCommands of_move(given->children[i], checker_);
+        controllers::CurrentMove::fields(value[i], of_move);
+      }
+    if constexpr (std::is_convertible_v<T, std::optional<double>> && !std::is_integral_v<T>)
+      if (const std::optional<double> mA = value; std::string_view(unit) == "mA")
+        checker_.not_above(given->place, key, *mA);
+  }
+  void required(std::string_view key, const auto&... rest) { (*this)(key, rest...); }
+
+ private:
+  const Node& node_;
+  CurrentChecker& checker_;
 };
 
 }  // namespace
@@ -92,6 +128,16 @@ void follow_valve(controllers::Settings& settings, const Source& source, const N
     if (const auto* one = controllers::part_of<controllers::RestTerms>(settings); one != nullptr && works)
       output.rest(*one->rest_current_mA, *terms->lowest_current_mA, *terms->highest_current_mA);
   }
+  std::visit(
+      [&]<class One>(const One& one) {
+        CurrentChecker output(source, node, rig, problems);
+        GivenCommands given(node, output);
+        if constexpr (requires { one.at(0.0); }) One::fields(one, given);
+        if constexpr (std::is_same_v<One, controllers::RecordedCurrent>)
+          if (!one.samples_mA.empty())
+            output.not_above(node.find("file")->place, one.column, std::ranges::max(one.samples_mA));
+      },
+      settings);
   if (const auto* contractions = controllers::weighing_of(settings))
     if (const Node* weighing = node.find("weighing"))
       CurrentChecker(source, *weighing, rig, problems)

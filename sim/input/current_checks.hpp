@@ -13,7 +13,7 @@ namespace mckibben::input {
 controllers::CurrentRange working_range(const plant::Rig& rig);
 
 /// Fills in what `settings` leaves open; `node` is the controller's map. Limits with no current of the valve
-/// between them are errors, limits beyond the valve's or the DAC's warnings.
+/// between them are errors, limits and commands beyond the valve's or the DAC's warnings.
 void follow_valve(controllers::Settings& settings, const Source& source, const Node& node,
                   const plant::Rig& rig, Problems& problems);
 

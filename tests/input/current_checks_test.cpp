@@ -63,6 +63,21 @@ TEST(CurrentChecks, LimitsBeyondTheValvesAreWarnedOfWithTheirLine) {
   EXPECT_TRUE(says(warnings[3].message, "is above the DAC's largest_command, 18 mA"));
 }
 
+TEST(CurrentChecks, CommandsBeyondTheValvesAreWarnedOfWithTheirLine) {
+  std::vector<Problem> warnings;
+  read(to_10_mA, "{kind: stair_current, low: 3 mA, high: 12 mA, steps: 3, dwell: 1 s}", warnings);
+  read(to_10_mA, "{kind: step_current, moves: [{at: 1 s, to: 5 mA}, {at: 2 s, to: 11 mA}]}", warnings);
+  read("thesis", "{kind: sine_current, low: 0 mA, high: 20 mA, period: 2 s}", warnings);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(
+      warnings[0].message,
+      "high = 12 mA is above the valve's span_command, 10 mA: from there on the pressure does not change");
+  EXPECT_EQ(
+      warnings[1].message,
+      "to = 11 mA is above the valve's span_command, 10 mA: from there on the pressure does not change");
+  EXPECT_EQ(warnings[1].place.line, 7u);
+}
+
 TEST(CurrentChecks, LimitsWithoutACurrentOfTheValveBetweenThemAreErrors) {
   EXPECT_TRUE(says(refused(to_10_mA, "{kind: pid, lowest_command: 12 mA}"),
                    "valve.yaml:7:33: error: lowest_command = 12 mA: from 12 mA to 10 mA no command moves the "
