@@ -189,7 +189,8 @@ std::string reading_warning(const TrackedRun& run, const controllers::Settings& 
 
 std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
                           const plant::Rig& rig) {
-  if (rig.has_angle() || !run.failure.empty() || !limit_warning(run, rig).empty()) return "";
+  if (rig.has_angle() || !run.failure.empty() || (run.metrics.swings && !limit_warning(run, rig).empty()))
+    return "";
   std::vector<double> contraction;
   for (const Sample& sample : run.recording.samples)
     contraction.push_back(sample.state.joint.contraction_ratio);
@@ -203,7 +204,9 @@ std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const con
     text += fmt::format(
         "; a lower proportional{}, a longer integral_time or, against friction, a dead_zone of "
         "{:.2g} would help: linearise shows the margins",
-        pid->proportional_mA ? fmt::format(" (it is {:.4g} mA)", *pid->proportional_mA) : "",
+        pid->proportional_mA
+            ? fmt::format(" (it is {:.4g} {})", *pid->proportional_mA, name_of(rig.command_unit()))
+            : "",
         2.0 * cycle->amplitude);
   return text;
 }

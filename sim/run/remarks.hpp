@@ -42,7 +42,7 @@ std::string reading_warning(const TrackedRun& run, const controllers::Settings& 
                             const plant::Rig& rig);
 
 /// Of a run that goes round and round where its target rests: amplitude, period, and the keys that would
-/// help. Empty if it does not, or if its limits say so.
+/// help. Empty if it does not, or if `limit_warning` says that it swings.
 std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
                           const plant::Rig& rig);
 

@@ -1,6 +1,8 @@
 // See the header.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include <plant/geometry.hpp>
 #include <sim/domain/rig_number.hpp>
@@ -59,15 +61,16 @@ std::optional<LimitCycle> limit_cycle(const Followed& run) {
   for (std::size_t begin = 0; begin < run.target.size();) {
     std::size_t end = begin + 1;
     while (end < run.target.size() && run.target[end] == run.target[begin]) ++end;
-    const std::size_t half = (end - begin) / 2;
-    const auto contraction = run.contraction.subspan(begin + half, end - begin - half);
-    if (const auto at = turns(contraction); end - begin >= least && at.size() >= cycle_turns) {
-      double ways = 0.0;
-      for (std::size_t k = 1; k < at.size(); ++k)
-        ways += std::abs(contraction[at[k]] - contraction[at[k - 1]]);
-      const auto halves = static_cast<double>(at.size() - 1);
-      return LimitCycle{.amplitude = 0.5 * ways / halves,
-                        .period_s = 2.0 * static_cast<double>(at.back() - at.front()) * run.tick_s / halves};
+    auto at = turns(run.contraction.subspan(begin, end - begin));
+    if (end - begin >= least && at.size() >= cycle_turns) {
+      at.erase(at.begin(), at.end() - cycle_turns);
+      std::array<double, cycle_turns - 1> ways{};
+      for (std::size_t k = 0; k < ways.size(); ++k)
+        ways[k] = std::abs(run.contraction[begin + at[k + 1]] - run.contraction[begin + at[k]]);
+      const double period = 2.0 * static_cast<double>(at.back() - at.front()) / ways.size();  // ticks
+      if (static_cast<double>(end - begin - at.back()) <= period && ways.back() >= cycle_stays * ways.front())
+        return LimitCycle{.amplitude = 0.5 * std::accumulate(ways.begin(), ways.end(), 0.0) / ways.size(),
+                          .period_s = period * run.tick_s};
     }
     begin = end;
   }

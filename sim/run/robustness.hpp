@@ -17,10 +17,11 @@
 
 namespace mckibben::run {
 
-/// A run counts as a limit cycle if the load still turns round at least so often, each time after a way of so
-/// much [contraction ratio], in the second half of a stretch in which the target rests for so long.
+/// A run counts as a limit cycle if the load turns round at least so often, each time after a way of so much
+/// [contraction ratio], while the target rests for so long; if it still does in the last period of that rest;
+/// and if the last of the ways between these turns is at least such a share of the first: others die away.
 inline constexpr std::size_t cycle_turns = 4;
-inline constexpr double cycle_way = 1e-3, cycle_rest_s = 1.0;
+inline constexpr double cycle_way = 1e-3, cycle_rest_s = 1.0, cycle_stays = 0.7;
 /// As saturated, if its current stood at an end of its range for more than this share of the time.
 inline constexpr double saturated_share = 0.10;
 

@@ -140,7 +140,7 @@ TEST(Remarks, AReadingThatIsOffIsToldWithItsKeyWhereAControllerUsesIt) {
 }
 
 TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
-  const plant::Rig rig;
+  plant::Rig rig;
   Wanted wanted;
   wanted.ratios.assign(400, 0.1);
   TrackedRun run{.load_kg = 16.0, .controller = "pid"};
@@ -162,6 +162,9 @@ TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
       "shows the margins");
   run.limits = {4.0, 20.0};
   run.metrics.at_lowest_current = 0.6;
+  rig.valve.command_unit = plant::CommandUnit::V;
+  EXPECT_NE(swinging(4e-3).find("(it is 120 V)"), std::string::npos) << "at a limit elsewhere";
+  run.metrics.swings = true;
   EXPECT_EQ(swinging(4e-3), "") << "its limits say so";
 }
 

@@ -43,6 +43,22 @@ TEST(Robustness, ALoadThatGoesRoundAndRoundWhereItsTargetRestsIsALimitCycle) {
   EXPECT_NEAR(found->period_s, 0.5, 0.012);
 }
 
+TEST(Robustness, ALoadThatRingsOutIsNoLimitCycleAndOneThatSwingsBeforeTheFirstMoveIs) {
+  const auto swings = [](double rests_s, double dies_s) {
+    std::vector<double> target, contraction;
+    for (double time_s = 0.0; time_s < rests_s + 1.0; time_s += apart_s) {
+      target.push_back(time_s < rests_s ? 0.1 : 0.1 + 0.02 * (time_s - rests_s));
+      contraction.push_back(target.back() + (time_s < rests_s ? 0.025 * std::exp(-time_s / dies_s) : 0.0) *
+                                                std::sin(14.0 * time_s));
+    }
+    return limit_cycle(followed(target, contraction)).has_value();
+  };
+  EXPECT_TRUE(swings(1.05, 1e6)) << "15 mm, 0.45 s";
+  EXPECT_TRUE(swings(1.05, 2.0)) << "hardly dies";
+  EXPECT_FALSE(swings(1.05, 0.6));
+  EXPECT_FALSE(swings(2.0, 0.6)) << "of the second half";
+}
+
 TEST(Robustness, ATargetThatNeverRestsHasNoLimitCycle) {
   std::vector<double> target, contraction;
   for (int k = 0; k < 500; ++k) {
