@@ -206,6 +206,11 @@ std::string_view usual_unit(std::string_view si_unit) {
   return si_unit;
 }
 
+/// A bare number as an angle: up to half a turn it may be rad.
+bool may_be_rad(double number, std::string_view si_unit) {
+  return si_unit == "rad" && std::abs(number) <= std::numbers::pi;
+}
+
 /// ": for example 5 bar": the number that was written, in the unit that was wanted, if it may be meant; else
 /// what is usual; nothing if neither is known.
 std::string example_for(std::string_view number, std::string_view si_unit, const Usual& usual) {
@@ -213,11 +218,14 @@ std::string example_for(std::string_view number, std::string_view si_unit, const
   const auto text = [](const std::string& example) { return ": for example " + example; };
   if (const auto written = parse_number(number)) {
     double value = *written;
-    convert({&value, 1}, usual_unit(si_unit), si_unit);
+    const bool rad = may_be_rad(value, si_unit);
+    const std::string_view unit = rad ? si_unit : usual_unit(si_unit);
+    convert({&value, 1}, unit, si_unit);
     const double ratio = value / usual.value;
     if (value >= usual.lowest && value <= usual.highest &&
         (usual.value == 0.0 || (ratio > 1.0 / alike && ratio < alike)))
-      return text(fmt::format("{} {}", number, usual_unit(si_unit)));
+      return text(fmt::format("{} {}", number, unit) +
+                  (rad ? fmt::format(", which is {:.3g} deg", value * 180.0 / std::numbers::pi) : ""));
   }
   return usual.value == 0.0 ? "" : text(usual_quantity(usual.value, si_unit));
 }

@@ -98,6 +98,8 @@ TEST(Quantity, SayWhatIsWrong) {
   EXPECT_EQ(problem_of("0.3", "m"), "0.3 has no unit; it is measured in m: for example 0.3 m");
   EXPECT_EQ(problem_of("5", "Pa"), "5 has no unit; it is measured in Pa: for example 5 bar");
   EXPECT_EQ(problem_of("20", "rad"), "20 has no unit; it is measured in rad: for example 20 deg");
+  EXPECT_EQ(problem_of("0.1", "rad"),
+            "0.1 has no unit; it is measured in rad: for example 0.1 rad, which is 5.73 deg");
   EXPECT_EQ(problem_of("3 kg", "Pa"), "3 kg: kg is the wrong kind of unit; wanted is Pa");
   EXPECT_EQ(problem_of("3 barr", "Pa"), "3 barr: barr is not a unit; wanted is Pa: for example 3 bar");
   const auto of_radius = [](const char* text) {
