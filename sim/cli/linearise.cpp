@@ -7,6 +7,7 @@
 
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/domain/rig_number.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/file_names.hpp>
@@ -165,7 +166,7 @@ int linearise(const LineariseOptions& options) {
   Job job(options, "linearise " + options.file, all.name + "-linearise", all.files);
   for (const double load_kg : task.loads_kg)
     for (const linear::Place& place : all.question.places) {
-      if (const std::string why = all.rig.pair() ? "" : input::too_heavy(load_kg, all.rig); !why.empty())
+      if (const std::string why = all.rig.pair() ? "" : domain::too_heavy(load_kg, all.rig); !why.empty())
         refuse(options.file, fmt::format("{:g} kg: {}", load_kg, why));
       try {
         all.studies.push_back(

@@ -8,6 +8,7 @@
 
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
+#include <sim/domain/rig_number.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
@@ -32,7 +33,7 @@ int show_live(const LiveOptions& options) {
   const bool pair = rig.pair() != nullptr;
   if (!rig.has_angle()) input::require_load(rig, options.rig, "live");
   const double load_kg = options.load_kg > 0.0 ? options.load_kg : input::usual_load_kg(rig);
-  const std::string why = !pair                   ? input::too_heavy(load_kg, rig)
+  const std::string why = !pair                   ? domain::too_heavy(load_kg, rig)
                           : options.load_kg > 0.0 ? "two muscles turn a link; no load hangs there"
                                                   : "";
   if (!why.empty()) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/domain/rig_number.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/current_checks.hpp>
 #include <sim/input/file_names.hpp>
@@ -71,15 +72,6 @@ double usual_load_kg(const plant::Rig& rig) {
   return std::round(kg / digit) * digit;
 }
 
-std::string too_heavy(double load_kg, const plant::Rig& rig) {
-  const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
-  if (rig.pulled_kg(load_kg) <= most_kg) return "";
-  return fmt::format(
-      "the taut threads of this muscle bear {:.3g} kg before they lie along it; a stiffer stop "
-      "(muscle.stop_stiffness, {}) or a wider braid_angle bears more",
-      most_kg, write_quantity(rig.muscle.stop_stiffness_N_per_m, "N/m"));
-}
-
 void check_name(const YamlFile& file, const std::string& name, Problems& problems) {
   const Node* given = file.root.find("name");
   if (given != nullptr && !is_file_safe(name))
@@ -107,7 +99,7 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
     const Node& node = nodes.children[i];
     if (!rig.can_hang(loads_kg[i]))
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, no_mass(rig)));
-    else if (const auto why = too_heavy(loads_kg[i], rig); !why.empty())
+    else if (const auto why = domain::too_heavy(loads_kg[i], rig); !why.empty())
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, why));
     else if (loads_kg[i] > 0.0 && loads_kg[i] < hardly_anything * usual_load_kg(rig))
       problems.warning(

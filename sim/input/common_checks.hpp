@@ -28,8 +28,6 @@ void require_load(const plant::Rig& rig, const std::string& file, std::string_vi
 
 /// What is missing where `Rig::can_hang` refuses a load.
 std::string no_mass(const plant::Rig& rig);
-/// Why the rig's taut threads cannot bear a load; empty if they can.
-std::string too_heavy(double load_kg, const plant::Rig& rig);
 
 /// A load that the muscle lifts about halfway: by its force at full pressure, in two digits.
 double usual_load_kg(const plant::Rig& rig);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/domain/rig_number.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
@@ -38,7 +39,7 @@ void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems
                      fmt::format("id = {} is already that of the run in line {}", id, earlier->second));
     const Node* load = list.children[i].find("load");
     if (load == nullptr) continue;
-    if (const auto why = too_heavy(dataset.runs[i].load_kg, dataset.rig); !why.empty())
+    if (const auto why = domain::too_heavy(dataset.runs[i].load_kg, dataset.rig); !why.empty())
       problems.error(file.source, load->place, fmt::format("load = {}: {}", load->text, why));
   }
 }

@@ -8,6 +8,7 @@
 #include <controllers/waveform.hpp>
 #include <plant/command.hpp>
 #include <plant/geometry.hpp>
+#include <sim/domain/rig_number.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/live/session.hpp>
@@ -115,7 +116,7 @@ std::string Session::set_load(double load_kg) {
   if (pair()) return "load: two muscles turn a link; none hangs there";
   const auto [least_kg, most_kg] = loads();
   std::string why = out_of_range("load", load_kg, least_kg, most_kg, "kg");
-  if (const std::string heavy = input::too_heavy(load_kg, rig_); !why.empty() && !heavy.empty())
+  if (const std::string heavy = domain::too_heavy(load_kg, rig_); !why.empty() && !heavy.empty())
     why += "; " + heavy;
   if (why.empty() && !rig_.can_hang(load_kg))
     why = fmt::format("load = {:g} kg: {}", load_kg, input::no_mass(rig_));

@@ -33,7 +33,7 @@ class Session {
  public:
   using Commands = std::array<double, 2>;  ///< in what the valve takes, the second of a pair
 
-  /// At rest at the command of no pressure. The rig must lift a load, and bear this one (input::too_heavy),
+  /// At rest at the command of no pressure. The rig must lift a load, and bear this one (domain::too_heavy),
   /// or have two muscles; then the load means nothing.
   Session(const plant::Rig& rig, double load_kg);
 

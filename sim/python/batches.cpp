@@ -1,4 +1,5 @@
 // Many rigs that Python steps, as its module's class: batch.hpp is what it does.
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -6,8 +7,29 @@
 #include <fmt/format.h>
 
 #include <sim/python/batch.hpp>
+#include <sim/python/dicts.hpp>
 
 namespace mckibben::python {
+namespace {
+
+/// Indices of rigs. Throws py::type_error for what is none, as a mask, whose truths would be 0 and 1.
+std::vector<std::size_t> places_of(const py::object& given) {
+  const auto array = py::array::ensure(given);
+  const bool whole =
+      array && array.ndim() == 1 && (array.dtype().kind() == 'i' || array.dtype().kind() == 'u');
+  if (!whole && !(array && array.size() == 0))
+    throw py::type_error(fmt::format("which = {}: must be indices of rigs, such as [0, 3]", repr_of(given)));
+  std::vector<std::size_t> places;
+  for (const auto& place : array) {
+    const auto index = place.cast<std::int64_t>();
+    if (index < 0)
+      throw py::index_error(fmt::format("which[{}] = {}: must be 0 or more", places.size(), index));
+    places.push_back(static_cast<std::size_t>(index));
+  }
+  return places;
+}
+
+}  // namespace
 
 void add_batch(py::module_& module) {
   using Any = const py::object&;
@@ -56,9 +78,8 @@ void add_batch(py::module_& module) {
           "in `failures`; the others go on.")
       .def(
           "restart",
-          [some, loads_of](Batch& batch, const std::vector<std::size_t>& which, Any rigs, Any loads_kg,
-                           Any command) {
-            batch.restart(which, rigs, loads_of(loads_kg), some(batch, command, py::none()));
+          [some, loads_of](Batch& batch, Any which, Any rigs, Any loads_kg, Any command) {
+            batch.restart(places_of(which), rigs, loads_of(loads_kg), some(batch, command, py::none()));
           },
           py::arg("which"), py::arg("rigs") = py::none(), py::arg("loads_kg") = py::none(),
           py::arg("command") = py::none(),

@@ -7,6 +7,8 @@
 
 #include <plant/geometry.hpp>
 #include <plant/instruments.hpp>
+#include <sim/domain/rig_number.hpp>
+#include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/python/dicts.hpp>
@@ -47,18 +49,17 @@ std::optional<double> number_of(const py::object& given, const char* name, std::
 
 std::optional<Numbers> numbers_of(const py::object& given, const char* name, std::string_view unit) {
   if (given.is_none()) return {};
-  if (!py::isinstance<py::str>(given))
-    if (auto numbers = Numbers::ensure(given)) return numbers;
+  if (Numbers::check_(given)) return given.cast<Numbers>();  // most
+  const auto array = py::array::ensure(given);
+  if (array && std::string_view("fiu").find(array.dtype().kind()) != std::string_view::npos)
+    if (auto numbers = Numbers::ensure(array)) return numbers;
   throw py::type_error(fmt::format("{} = {}: must be numbers, in {}", name, repr_of(given), unit));
 }
 
 double load_within(double load_kg, const plant::Rig& rig, const std::string& name) {
   within(load_kg, 0.0, 500.0, name, "kg");
-  if (!rig.can_hang(load_kg))
-    throw py::value_error(
-        fmt::format("{} = {:g}: nothing moves; give a larger load, or set "
-                    "joint.moving_mass or joint.wheel_inertia",
-                    name, load_kg));
+  const std::string why = rig.can_hang(load_kg) ? domain::too_heavy(load_kg, rig) : input::no_mass(rig);
+  if (!why.empty()) throw py::value_error(fmt::format("{} = {:g} kg: {}", name, load_kg, why));
   return load_kg;
 }
 
@@ -102,7 +103,7 @@ Scenario scenario_of(const py::object& from, const std::filesystem::path& folder
 py::object sampled_target(const Scenario& scenario) {
   const std::vector<run::Wanted> all = run::wanted_of(scenario.what);
   if (all.size() != 1) return py::none();
-  const auto& target = scenario.what.rig.pair() != nullptr ? all.front().values : all.front().ratios;
+  const auto& target = all.front().values;
   return py::array_t<double>(static_cast<py::ssize_t>(target.size()), target.data());
 }
 
@@ -246,6 +247,13 @@ void add_inputs(py::module_& module) {
           },
           "The same of a valve that takes mA.")
       .def(
+          "_load_within",
+          [](const Rig& rig, double load_kg, const std::string& name) {
+            return load_within(load_kg, rig.file, name);
+          },
+          py::arg("load_kg"), py::arg("name"),
+          "A load that can hang on it. Raises ValueError with this name.")
+      .def(
           "__eq__",
           [](const Rig& a, const py::object& b) {
             return py::isinstance<Rig>(b) && fields_of(a.file) == fields_of(b.cast<const Rig&>().file);
@@ -271,8 +279,8 @@ void add_inputs(py::module_& module) {
           "rig", [](const Scenario& s) { return Rig{s.what.rig}; }, "Its rig.")
       .def_property_readonly(
           "target", &sampled_target,
-          "Contraction ratio that is wanted at each tick [1], shape (ticks,); of a pair the angle [rad], or "
-          "None where it has not one target.")
+          "Contraction ratio that is wanted at each tick [1], shape (ticks,); of a lever or a pair the angle "
+          "[rad]; None where it has not one target.")
       .def_readonly("warnings", &Scenario::warnings, "What its reader warned of.");
 
   py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>> datasets(

@@ -5,6 +5,7 @@
 
 #include <sim/output/replay_results.hpp>
 #include <sim/output/run_results.hpp>
+#include <sim/python/dicts.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/python/jobs.hpp>
 #include <sim/python/long_work.hpp>
@@ -62,7 +63,7 @@ Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::
                 [whole] { return report::report_html(whole->scenario, whole->comparison); }};
   for (const run::TrackedRun& run : whole->comparison.runs) {
     std::shared_ptr<const std::vector<double>> target;
-    if (run.followed() && !run.joint) target = {whole, &whole->comparison.targets[run.target].values};
+    if (run.followed()) target = {whole, &whole->comparison.targets[run.target].values};
     const auto channels = plant::channels_of(whole->scenario.rig, run.recording.driven);
     result.runs.push_back(std::make_shared<Simulated>(
         Simulated{part_of(whole, run.recording), channels, run.name, run.controller, run.failure, run.load_kg,
@@ -101,10 +102,14 @@ Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned th
   return result;
 }
 
-std::shared_ptr<Simulated> run_at(const Result& result, py::ssize_t index) {
-  const auto count = static_cast<py::ssize_t>(result.runs.size());
+py::object run_at(const Result& result, const py::object& place) {
+  if (PySlice_Check(place.ptr())) return py::tuple(py::cast(result.runs))[place];
+  if (PyIndex_Check(place.ptr()) == 0)
+    throw py::type_error("result[" + repr_of(place) +
+                         "]: must be a run's place, from 0 on; for its name see run.name");
+  const auto count = static_cast<py::ssize_t>(result.runs.size()), index = place.cast<py::ssize_t>();
   if (index < -count || index >= count) throw py::index_error("there are " + std::to_string(count) + " runs");
-  return result.runs[static_cast<std::size_t>(index < 0 ? index + count : index)];
+  return py::cast(result.runs[static_cast<std::size_t>(index < 0 ? index + count : index)]);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/input/suggest.hpp>
+#include <sim/python/dicts.hpp>
 #include <sim/python/pickles.hpp>
 #include <sim/python/recordings.hpp>
 
@@ -57,9 +58,10 @@ py::dict by_column(const Simulated& run, const Value& value) {
 }
 
 py::object target_of(const py::object& self) {
-  const auto& target = self.cast<const Simulated&>().target;
-  if (!target) return py::none();
-  return view(target->data(), {static_cast<py::ssize_t>(target->size())}, {sizeof(double)}, self);
+  const auto& run = self.cast<const Simulated&>();
+  if (!run.target) return py::none();
+  const auto rows = static_cast<py::ssize_t>(run.recording->samples.size());  // fewer where it failed
+  return view(run.target->data(), {rows}, {sizeof(double)}, self);
 }
 
 py::dict gaps_as_dict(const Simulated& run) {
@@ -164,7 +166,13 @@ void add_recordings(py::module_& module) {
                              "(`meanings`).")
       .def(
           "__getitem__",
-          [](const Simulated& run, const std::string& name) { return column_of(run, channel_of(run, name)); },
+          [](const Simulated& run, const py::object& name) {
+            if (!py::isinstance<py::str>(name))
+              throw py::type_error(fmt::format(
+                  "run[{0}]: must be the name of a column, such as run['time_s']; run.samples[{0}] has rows",
+                  repr_of(name)));
+            return column_of(run, channel_of(run, name.cast<std::string>()));
+          },
           py::arg("name"), "A column, shape (rows,), in its unit; a copy.")
       .def("__len__", [](const Simulated& run) { return run.recording->samples.size(); })
       .def_property_readonly(
@@ -179,8 +187,10 @@ void add_recordings(py::module_& module) {
             return by_column(run, [](const plant::Channel& c) { return c.words(); });
           },
           "The meaning of each column.")
-      .def_property_readonly("target", &target_of,
-                             "Contraction ratio that was wanted, shape (rows,), or None; without a copy.")
+      .def_property_readonly(
+          "target", &target_of,
+          "What was wanted, shape (rows,): contraction ratio, of a lever or a pair angle [rad]; None "
+          "where nothing was; without a copy.")
       .def_property_readonly(
           "metrics",
           [](const Simulated& run) {

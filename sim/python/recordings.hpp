@@ -16,8 +16,9 @@ struct Simulated {
   std::shared_ptr<const run::Recording> recording;
   std::vector<plant::Channel> channels;
   std::string name{}, controller{}, failure{};
-  double load_kg = 0.0;                                 ///< 0 where none hangs
-  std::shared_ptr<const std::vector<double>> target{};  ///< contraction ratio at each row; none
+  double load_kg = 0.0;  ///< 0 where none hangs
+  std::shared_ptr<const std::vector<double>>
+      target{};  ///< contraction ratio or angle [rad] at each row; none
   std::vector<std::pair<std::string, std::optional<double>>> metrics{};
   std::vector<run::Gap> gaps{};
 };

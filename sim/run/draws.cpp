@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <plant/geometry.hpp>
 #include <sim/domain/rig_number.hpp>
 #include <sim/run/draws.hpp>
 
@@ -101,9 +100,8 @@ plant::Rig drawn_rig(const domain::Campaign& campaign, int repeat) {
 
 std::string unfit(const plant::Rig& rig, double load_kg) {
   if (std::string broken = domain::broken_rule(rig); !broken.empty()) return broken;
-  const double hangs_kg = rig.pulled_kg(load_kg), most_kg = plant::Braid(rig.muscle).largest_load_kg();
-  if (hangs_kg <= most_kg) return "";
-  return fmt::format("the taut threads of this muscle bear {:.3g} kg, not {:.3g} kg", most_kg, hangs_kg);
+  const std::string heavy = domain::too_heavy(load_kg, rig);
+  return heavy.empty() ? "" : fmt::format("{:g} kg: {}", load_kg, heavy);
 }
 
 }  // namespace mckibben::run

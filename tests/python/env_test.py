@@ -81,6 +81,7 @@ class Env(unittest.TestCase):
         for said, bad in (("loads_kg = .*: must be left out", lambda: mckibben.Env("thesis_pair", loads_kg=(1.0, 2.0))),
                           (r"of shape \(2,\)", lambda: env.step([0.1])), ("'load_kg' is unknown", lambda: env.reset(options={"load_kg": 9.0})),
                           ("all rigs of an environment", lambda: mckibben.Env(["thesis", "thesis_pair"])),
+                          ("drawn_target draws contraction ratios", lambda: mckibben.Env("thesis_pair", target=mckibben.env.drawn_target)),
                           ("VectorEnv is of rigs with one muscle", lambda: mckibben.VectorEnv(2, "thesis_pair"))):
             with self.assertRaisesRegex(ValueError, said):
                 bad()
@@ -105,7 +106,7 @@ class Env(unittest.TestCase):
         with self.assertRaises(RuntimeError):
             env.step([0.0])
         env.reset(seed=1)
-        for no_action in ([float("nan")], [], [0.1, 0.2], "a", None):
+        for no_action in ([float("nan")], [], [0.1, 0.2], "a", None, "0.1", ["0.1"], [True], [b"1"], numpy.array([1], "m8[s]")):
             with self.assertRaisesRegex(ValueError, r"must be finite numbers of shape \(1,\)"):
                 env.step(no_action)
         with self.assertRaisesRegex(TypeError, "rig = 3: must be a name, a path or a dict"):
@@ -132,6 +133,14 @@ class Env(unittest.TestCase):
             for load_kg in ("8 kg", numpy.nan):
                 with self.assertRaisesRegex(ValueError, f"options: load_kg = {load_kg!r}: must be a number from 0 to 500"):
                     refused.reset(seed=9, options={"load_kg": load_kg})
+            with self.assertRaisesRegex(ValueError, r"^options = \[1\]: must be a dict"):
+                refused.reset(options=[1])
+            with self.assertRaisesRegex(ValueError, "^options: load_kg = 300 kg: the taut threads of this muscle bear 147 kg"):
+                refused.reset(seed=9, options={"load_kg": 300})
+            with self.assertRaisesRegex(ValueError, r"^loads_kg\[1\] = 300 kg: the taut threads of this muscle bear 147 kg"):
+                make(loads_kg=(8.0, 300.0))
+            with self.assertRaisesRegex(ValueError, r"^loads?_kg.* = 300 kg: the taut threads of this muscle bear"):
+                make(rig=lambda random: "thesis").reset(options={"load_kg": 300.0})
             for seed in ("a", -1, 1.5):
                 with self.assertRaisesRegex(ValueError, f"seed = {seed!r}: must be a whole number"):
                     refused.reset(seed=seed)

@@ -53,7 +53,8 @@ class Package(unittest.TestCase):
             self.assertEqual(set(functions), there, name)
             for member, function in functions.items():
                 if function.decorator_list or member.startswith("__") and member != "__init__":
-                    self.assertTrue(function.decorator_list == [] or isinstance(vars(real[name])[member], property))
+                    decorated = [ast.unparse(each) for each in function.decorator_list]
+                    self.assertTrue(decorated in ([], ["overload"]) or isinstance(vars(real[name])[member], property))
                     continue
                 given = [a.arg for a in function.args.args[1:] + function.args.kwonlyargs]
                 signature = getattr(real[name], member).__doc__.splitlines()[0]

@@ -7,7 +7,7 @@ import unittest
 import numpy
 
 import mckibben
-from common import SCENARIO, main
+from common import FALLS, SCENARIO, main
 
 CURRENTS = 9.0 - 4.0 * numpy.cos(0.03 * numpy.arange(200))
 
@@ -124,6 +124,11 @@ class Rides(unittest.TestCase):
                            ("dt_s = '1 s': must be a number, in s", lambda: ride.step(9.0, "1 s")),
                            (r"command = \['9 mA'\]: must be numbers, in mA", lambda: ride.follow(["9 mA"])),
                            ("command = '9 mA': must be numbers, in mA", lambda: mckibben.Batch("thesis", 8.0).step("9 mA")),
+                           (r"command = \['9'\]: must be numbers, in mA", lambda: mckibben.Batch("thesis", 8.0).step(["9"])),
+                           (r"command = array\(\[9\], .*: must be numbers", lambda: ride.follow(numpy.array([9], "m8[s]"))),
+                           (r"command = \[None\]: must be numbers, in mA", lambda: ride.follow([None])),
+                           (r"which = \[True, False\]: must be indices of rigs", lambda: mckibben.Batch("thesis", [8.0, 9.0]).restart([True, False])),
+                           (r"which = 0: must be indices", lambda: mckibben.Batch("thesis", 8.0).restart(0)),
                            ("rig = 3: must be a name", lambda: mckibben.Batch(["thesis", 3], 8.0))):
             with self.assertRaisesRegex(TypeError, words):
                 bad()
@@ -142,10 +147,13 @@ class Rides(unittest.TestCase):
                 ("no opposite one", lambda: ride.follow([9.0], [9.0])),
                 (r"dt_s = 100000: must be above 0 and at most 60 s", lambda: ride.step(9.0, dt_s=1e5)),
                 ("load_kg is missing", lambda: mckibben.Ride()), ("load_kg = nan: must be", lambda: mckibben.Ride(load_kg=numpy.nan)),
-                ("load_kg = 0: nothing moves", lambda: mckibben.Ride({"joint": {"wheel_inertia": "0 kg.m2"}}, 0.0)),
+                ("load_kg = 0 kg: without a load nothing moves", lambda: mckibben.Ride({"joint": {"wheel_inertia": "0 kg.m2"}}, 0.0)),
                 (r"loads_kg\[1\] = nan: must be from 0 to 500 kg", lambda: mckibben.Batch("thesis", [8.0, numpy.nan])),
                 ("loads_kg has 3 masses for 2 rigs", lambda: mckibben.Batch(["thesis", "thesis"], [8.0, 9.0, 10.0])),
                 (r"loads_kg\[0\] = -1", lambda: mckibben.Batch("thesis", [8.0]).restart([0], loads_kg=[-1.0])),
+                ("load_kg = 300 kg: the taut threads of this muscle bear 147 kg", lambda: mckibben.Ride(load_kg=300.0)),
+                (r"loads_kg\[1\] = 300 kg: the taut threads", lambda: mckibben.Batch("thesis", [8.0, 300.0])),
+                (r"loads_kg\[0\] = 300 kg: the taut threads", lambda: mckibben.Batch("thesis", [8.0]).restart([0], loads_kg=[300.0])),
                 (r"loads_kg has the shape \(n,\)", lambda: mckibben.Batch("thesis", [[8.0, 9.0], [8.0, 9.0]])),
                 ("at_s", lambda: ride.start(12.0, at_s=float("nan"))),
                 (r"command\[1\] = 21", lambda: ride.follow([9.0, 21.0])),
@@ -212,9 +220,8 @@ class Rides(unittest.TestCase):
         self.assertIn("command_V", env.step([0.0])[4])
 
     def test_a_failure_says_why(self):
-        soft = {"muscle": {"stop_stiffness": "1000 N/m", "stop_damping": "0 s/m"}}
         with self.assertRaises(mckibben.NumericalFailure) as caught:
-            mckibben.Ride(soft, load_kg=400.0)
+            mckibben.Ride(FALLS, load_kg=45.0).step(9.0)
         self.assertIsInstance(caught.exception, ArithmeticError)
 
 
@@ -251,8 +258,7 @@ class Batches(unittest.TestCase):
                          ("<mckibben.Batch at 0.012000 s: 40 rigs>", "<mckibben.Ride at 0.012000 s: 9.5 kg>"))
 
     def test_one_that_fails_fails_alone(self):
-        soft = mckibben.Rig({"muscle": {"stop_stiffness": "1000 N/m", "stop_damping": "0 s/m"}})
-        batch = mckibben.Batch([mckibben.Rig(), soft, mckibben.Rig()], [11.0, 400.0, 11.0])
+        batch = mckibben.Batch(["thesis", FALLS, "thesis"], [11.0, 45.0, 11.0])
         batch.step(9.0)
         self.assertEqual(list(batch.failures), [1])
         self.assertEqual(batch.state[0].tolist(), batch.state[2].tolist())

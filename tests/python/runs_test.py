@@ -32,6 +32,15 @@ class Runs(unittest.TestCase):
                            ("target", "it is run.target"), ("qqqqqqqqqqqq", "there are time_s, ")):
             with self.assertRaisesRegex(KeyError, said):
                 run[name]
+        for index in (0, slice(3), ["time_s"]):
+            with self.assertRaisesRegex(TypeError, r"^run\[.*\]: must be the name of a column, such as run\['time_s'\]"):
+                run[index]
+
+    def test_runs_are_a_sequence(self):
+        self.assertEqual([run.name for run in self.result[1:]], [self.result[1].name])
+        self.assertEqual([run.name for run in self.result], [run.name for run in self.result.runs])
+        with self.assertRaisesRegex(TypeError, r"^result\['pid'\]: must be a run's place"):
+            self.result["pid"]
 
     def test_are_those_of_the_command_line_to_the_bit(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -102,6 +111,9 @@ class Runs(unittest.TestCase):
             controllers=[{"kind": "pid", "proportional": "30 mA/rad", "integral_time": "0.1 s", "derivative_time": "0.08 s"}]).runs
         self.assertEqual((run.name, run.controller, run.failure), ("swing_0kg_pid", "pid", None))
         self.assertLess(run.metrics["rmse_rad"], 0.1)
+        error = run["angle_rad"] - run.target
+        self.assertAlmostEqual(run.metrics["largest_error_rad"], abs(error).max(), delta=1e-3)
+        self.assertIn(f"<td>{run.metrics['rmse_rad']:.5f} rad</td>", run._repr_html_())
 
     def test_threads_make_no_difference(self):
         def run(into):

@@ -1,6 +1,6 @@
 """Types of the compiled part; help() has shapes and units."""
 from os import PathLike
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union, overload
 
 import numpy
 import pandas
@@ -97,7 +97,10 @@ class Result:
     @property
     def runs(self) -> Tuple[Run, ...]: ...
     def __len__(self) -> int: ...
+    @overload
     def __getitem__(self, index: int) -> Run: ...
+    @overload
+    def __getitem__(self, index: slice) -> Tuple[Run, ...]: ...
     @property
     def warnings(self) -> List[str]: ...
     @property

@@ -9,7 +9,7 @@ import numpy
 
 from ._core import Batch, Ride
 from .errors import NumericalFailure
-from .task import Episode, Task, actions_of
+from .task import Episode, Task, actions_of, drawn_rig, drawn_target, options_of
 
 try:
     import gymnasium
@@ -112,11 +112,11 @@ class Env(Base):
     def reset(self, *, seed=None, options=None):
         """A new episode: (observation, info). `seed` decides its rig, target, load and jitter; `options` may say
         {"load_kg": ...}. The same seed, the same episode."""
-        options = options or {}
+        options = options_of(options)
         self.task.check(options, seed)
         super().reset(seed=None if seed is None else int(seed))  # Gymnasium takes no whole number of NumPy's
-        self.episode = Episode(self.task, self.np_random, options)
-        self.ride = Ride(self.episode.rig, load_kg=self.episode.load_kg)
+        episode = Episode(self.task, self.np_random, options)
+        self.ride, self.episode = Ride(episode.rig, load_kg=episode.load_kg), episode
         self.rows, self.ended = [], False
         seen = self.episode.begin(self._counted())
         self.at_rest = self.episode.last
@@ -197,7 +197,7 @@ class VectorEnv(VectorBase):
         """New episodes: (observations, infos). A seed is that of the first member, the next one has seed + 1; or one
         for each. With options {"reset_mask": booleans} these alone begin again, and the others stay where they are;
         {"load_kg": ...} is one for all, or one for each member."""
-        options = dict(options or {})
+        options = options_of(options)
         mask = options.pop("reset_mask", None)
         seeds = [seed] * self.num_envs if numpy.ndim(seed) == 0 else list(seed)
         if len(seeds) != self.num_envs:
@@ -271,14 +271,15 @@ class VectorEnv(VectorBase):
 
     def _begin(self, which, options, infos):
         """New episodes of these members; all observations."""
-        for i in which:
-            self.episodes[i] = Episode(self.task, self.random[i], options[i])
-        rigs, loads_kg = [self.episodes[i].rig for i in which], [self.episodes[i].load_kg for i in which]
+        begun = [Episode(self.task, self.random[i], options[i]) for i in which]
+        rigs, loads_kg = [one.rig for one in begun], [one.load_kg for one in begun]
         if len(which) == self.num_envs:
             self.batch = Batch(rigs, loads_kg, self.threads)
             self.observations = numpy.zeros(self.observation_space.shape, dtype=numpy.float32)
         else:
             self.batch.restart(which, rigs, loads_kg)
+        for i, one in zip(which, begun):
+            self.episodes[i] = one
         counted = self.batch.contraction_ratio.tolist()
         self.observations[which] = self.task.observation([self.episodes[i].begin(counted[i]) for i in which])
         for key in self.episodes[which[0]].info:
@@ -302,23 +303,6 @@ class VectorEnv(VectorBase):
             else:
                 infos[key][which] = values
             infos["_" + key][which] = True
-
-
-def drawn_rig(random):
-    """The thesis's rig, but threads with half to twice the friction, a muscle up to a tenth thinner or thicker, a valve
-    up to a third slower or quicker."""
-    def factor(most):
-        return float(most ** random.uniform(-1.0, 1.0))
-
-    return {"base": "thesis", "friction": {"scale": factor(2.0)},
-            "muscle": {"rest_radius": f"{7.5 * factor(1.1)!r} mm"},
-            "valve": {"conductance": f"{4e-9 * factor(1.33)!r} m3/(s.Pa)"}}
-
-
-def drawn_target(random):
-    """A sine about some contraction, slow or quick."""
-    return {"kind": "sine", "mean": float(random.uniform(0.06, 0.12)), "amplitude": float(random.uniform(0.01, 0.05)),
-            "period": f"{float(random.uniform(2.0, 8.0))!r} s"}
 
 
 def _register():

@@ -27,8 +27,8 @@ def _motion(run):
 
 def _row(run):
     name, motion = _motion(run)
-    rmse = run.metrics.get("rmse")
-    said = html.escape(run.failure) if run.failure else "" if rmse is None else f"{rmse:.5f}"
+    rmse = [f"{value:.5f}{key[4:].replace('_', ' ')}" for key, value in run.metrics.items() if key.startswith("rmse")]
+    said = html.escape(run.failure) if run.failure else "".join(rmse)
     ends = f"{name} {min(motion):.4g} to {max(motion):.4g}" if len(motion) else ""
     return (f"<tr><td>{html.escape(run.name)}</td><td>{run.load_kg:g}</td><td>{html.escape(run.controller)}</td>"
             f"<td>{said}</td><td>{sparkline(motion)}</td><td>{ends}</td></tr>")

@@ -16,15 +16,23 @@ def number(name, value, lowest, highest, unit=""):
 
 
 def actions_of(given, shape):
-    """Finite numbers in this shape; of one action each without its last axis, too."""
+    """Finite numbers in this shape; of one action each without its last axis, too. What can be read as numbers, such
+    as texts and dates, is none."""
     try:
-        values = numpy.asarray(given, dtype=float)
+        values = numpy.asarray(given)
     except (TypeError, ValueError):
-        values = numpy.full((), math.nan)
+        values = numpy.array(None)
     shapes = [shape, shape[:-1]] if shape[-1] == 1 else [shape]
-    if values.shape not in shapes or not numpy.isfinite(values).all():
+    if values.dtype.kind not in "fiu" or values.shape not in shapes or not numpy.isfinite(values).all():
         raise ValueError(f"action = {reprlib.repr(given)}: must be finite numbers of shape {shape}")
-    return values.reshape(shape)
+    return values.reshape(shape).astype(float)
+
+
+def options_of(given):
+    """Of a reset, as a dict of one's own."""
+    if not isinstance(given, (dict, type(None))):
+        raise ValueError(f"options = {reprlib.repr(given)}: must be a dict, such as {{'load_kg': 11.0}}")
+    return dict(given or {})
 
 
 def one_of(several, random):
@@ -34,6 +42,23 @@ def one_of(several, random):
     if isinstance(several, (list, tuple)):
         return several[int(random.integers(len(several)))]
     return several
+
+
+def drawn_rig(random):
+    """The thesis's rig of one muscle, but threads with half to twice the friction, a muscle up to a tenth thinner or thicker, a valve
+    up to a third slower or quicker."""
+    def factor(most):
+        return float(most ** random.uniform(-1.0, 1.0))
+
+    return {"base": "thesis", "friction": {"scale": factor(2.0)},
+            "muscle": {"rest_radius": f"{7.5 * factor(1.1)!r} mm"},
+            "valve": {"conductance": f"{4e-9 * factor(1.33)!r} m3/(s.Pa)"}}
+
+
+def drawn_target(random):
+    """A sine about some contraction ratio, of one muscle, slow or quick."""
+    return {"kind": "sine", "mean": float(random.uniform(0.06, 0.12)), "amplitude": float(random.uniform(0.01, 0.05)),
+            "period": f"{float(random.uniform(2.0, 8.0))!r} s"}
 
 
 class Task:
@@ -58,16 +83,19 @@ class Task:
             self.made(rig(numpy.random.default_rng(0)))
         if self.pair and loads_kg is not None:
             raise ValueError(f"loads_kg = {loads_kg!r}: must be left out; no load hangs on a pair of muscles")
+        if self.pair and target is drawn_target:
+            raise ValueError("target: drawn_target draws contraction ratios, of one muscle; a pair wants angles, such as lambda random: "
+                             "{'kind': 'sine', 'mean': '0 deg', 'amplitude': f'{random.uniform(5, 15)} deg', 'period': '4 s'}")
         loads_kg = self.LOADS_KG if loads_kg is None else loads_kg
         if isinstance(loads_kg, str) or numpy.shape(loads_kg) != (2,):
             raise ValueError(f"loads_kg = {loads_kg!r}: two masses are wanted, the lightest and the heaviest, such as (8.0, 23.0)")
-        self.loads_kg = tuple(sorted(number(f"loads_kg[{i}]", load, 0.0, self.HEAVIEST, " kg") for i, load in enumerate(loads_kg)))
+        self.rigs = self.rig if isinstance(self.rig, list) else [] if callable(self.rig) else [self.rig]  # known before they are drawn
+        self.loads_kg = tuple(sorted(self.load(f"loads_kg[{i}]", load) for i, load in enumerate(loads_kg)))
         default = self.PAIR_TARGET if self.pair else self.TARGET
         self.target = default if target is None else target
         self.duration_s = number("duration_s", duration_s, 0.0001, 3600.0, " s")
         self.jitter = number("jitter", jitter, 0.0, 1.0)
-        rigs = self.rig if isinstance(self.rig, list) else [] if callable(self.rig) else [self.rig]
-        most = max((one.largest_contraction_ratio for one in rigs), default=self.MOST)
+        most = max((one.largest_contraction_ratio for one in self.rigs), default=self.MOST)
         self.reads = "angle_rad" if self.pair else "contraction_ratio"
         ends = numpy.ones(2 if self.pair else 1, dtype=numpy.float32)
         self.acted = -ends, ends
@@ -94,13 +122,20 @@ class Task:
         self.pair = rig.pair
         return rig
 
+    def load(self, name, load_kg):
+        """A load that every known rig can lift."""
+        load_kg = number(name, load_kg, 0.0, Task.HEAVIEST, " kg")
+        for rig in () if self.pair else self.rigs:
+            rig._load_within(load_kg, name)
+        return load_kg
+
     def check(self, options, *seeds):
         """Of a reset, before it changes anything; without what is of a VectorEnv."""
         if unknown := set(options) - ({"load_kg"} if not self.pair else set()):
             raise ValueError(f"options: {', '.join(sorted(map(repr, unknown)))} is unknown; there are load_kg, of one muscle, "
                              "and reset_mask, of a VectorEnv")
         if "load_kg" in options:
-            number("options: load_kg", options["load_kg"], 0.0, Task.HEAVIEST, " kg")
+            self.load("options: load_kg", options["load_kg"])
         for seed in seeds:
             if seed is not None and (not isinstance(seed, numbers.Integral) or seed < 0):
                 raise ValueError(f"seed = {seed!r}: must be a whole number, 0 at least, or None")
