@@ -219,7 +219,12 @@ std::string example_for(std::string_view number, std::string_view si_unit, const
   if (const auto written = parse_number(number)) {
     double value = *written;
     const bool rad = may_be_rad(value, si_unit);
-    const std::string_view unit = rad ? si_unit : usual_unit(si_unit);
+    // Where nothing is usual: steps and offsets are of mm, and what is not small of a small unit.
+    const bool unknown = usual.value == 0.0 && std::isfinite(usual.highest), large = std::abs(value) >= 1.0;
+    const std::string_view unit = rad                                   ? si_unit
+                                  : unknown && si_unit == "m"           ? "mm"
+                                  : unknown && si_unit == "Pa" && large ? "mbar"
+                                                                        : usual_unit(si_unit);
     convert({&value, 1}, unit, si_unit);
     const double ratio = value / usual.value;
     if (value >= usual.lowest && value <= usual.highest &&

@@ -110,6 +110,17 @@ TEST(Quantity, SayWhatIsWrong) {
     }
     return std::string();
   };
+  const auto of_nothing_usual = [](std::string_view text, const char* unit, double highest) -> std::string {
+    try {
+      read_quantity(text, unit, {0.0, 0.0, highest});
+    } catch (const BadQuantity& wrong) {
+      return wrong.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(of_nothing_usual("0.02", "m", 0.1), "0.02 has no unit; it is measured in m: for example 0.02 mm");
+  EXPECT_EQ(of_nothing_usual("60", "Pa", 2e5), "60 has no unit; it is measured in Pa: for example 60 mbar");
+  EXPECT_EQ(of_nothing_usual("0.02", "s", 10.0), "0.02 has no unit; it is measured in s: for example 0.02 s");
   EXPECT_EQ(of_radius("8"), "8 has no unit; it is measured in m: for example 7.5 mm");
   EXPECT_EQ(of_radius("0.008"), "0.008 has no unit; it is measured in m: for example 0.008 m");
   EXPECT_EQ(of_radius("0.09"), "0.09 has no unit; it is measured in m: for example 7.5 mm");
