@@ -178,18 +178,22 @@ controllers::ReachOfLoad reach_of(const plant::Rig& rig, double load_kg, const s
   return reach;
 }
 
-/// The same to slow ramps, without a memory.
-plant::Rig in_slow_ramps(plant::Rig rig) {
+/// What is known of a rig (the rubber tube is part of its muscle), the same to slow ramps, without a memory.
+/// A regulator's dead band is an error that stays, no lag.
+plant::Rig in_slow_ramps(const plant::Rig& true_rig) {
+  plant::Rig rig = plant::nominal(true_rig);
+  rig.effects.get<plant::BladderElasticity>() = true_rig.effects.get<plant::BladderElasticity>();
   plant::Valve& valve = rig.valve;
   valve.time_constant_s = valve.slow_lag_s();
   valve.lag = plant::RegulatorLag::first_order;
+  valve.dead_band_Pa = 0.0;
   return rig;
 }
 
 }  // namespace
 
 controllers::Reach reachable(const plant::Rig& true_rig) {
-  const plant::Rig rig = in_slow_ramps(plant::nominal(true_rig));
+  const plant::Rig rig = in_slow_ramps(true_rig);
   const plant::Braid braid(rig.muscle);
   controllers::Reach reach;
   // Just short of e_max, where the braid pulls no more and every pressure is infinite.

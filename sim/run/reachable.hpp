@@ -11,8 +11,8 @@ namespace mckibben::run {
 ///
 /// The air that a movement needs, R T q = P' V + p V' e' (valve volume included), is what valve and hose in
 /// series give at the pressure that carries the load against friction and guide in that direction. Left out:
-/// inertia, the time to cross the band in which friction holds the load after a turn, and effects and load
-/// offset, of which nobody who asks for this knows.
+/// inertia, the time to cross the band in which friction holds the load after a turn, and load offset and
+/// effects but the rubber tube, of which nobody who asks for this knows.
 controllers::Reach reachable(const plant::Rig& rig);
 
 }  // namespace mckibben::run

@@ -126,7 +126,9 @@ std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const co
   const auto* terms = controllers::part_of<controllers::CalibratedSettings>(settings);
   const auto* open = std::get_if<controllers::OpenLoopSettings>(&settings);
   const bool to_one_point = open != nullptr && open->mode == controllers::OpenLoopMode::triangle;
-  if (terms == nullptr || to_one_point || rig.has_angle() || !run.failure.empty() ||
+  const bool no_tube = std::holds_alternative<controllers::StaticInverseSettings>(settings) &&
+                       run.metrics.final_error < 0.0 && !rig.effects.get<plant::BladderElasticity>().absent();
+  if ((terms == nullptr && !no_tube) || to_one_point || rig.has_angle() || !run.failure.empty() ||
       run.recording.samples.empty() || !rests_at_the_end(wanted.ratios, rig.tick_s))
     return "";
   const auto [lowest, highest] = std::ranges::minmax(wanted.ratios);
@@ -140,6 +142,10 @@ std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const co
           run.recording.samples.front().state.joint.contraction_ratio - wanted.ratios.front();
       is_off(start))
     text += fmt::format(" and began {} target.start, to which no feedback brings it", off_target(start, rig));
+  if (no_tube)
+    return text +
+           "; its law has no rubber tube (effects.bladder_elasticity), and this rig has one: kind: "
+           "model_inverse has it, too, and feedback helps";
   const auto& found = run.recording.findings;
   const auto outside = controllers::value_of(found, "ticks_outside_calibrated_speed");
   if (const auto& range = terms->model.range; outside > 0.0 && !terms->extrapolate_target)

@@ -70,6 +70,31 @@ TEST(Reachable, FallAfterAFullStepOfCurrentTakesAsLongAsTheTableSays) {
   }
 }
 
+TEST(Reachable, ADeadBandOfARegulatorIsNoLag) {
+  plant::Rig rig;
+  rig.valve.kind = plant::ValveKind::regulator;
+  rig.valve.time_constant_s = 0.1;
+  const auto without = reachable(rig).at_load(16.138);
+  rig.valve.dead_band_Pa = 1200.0;
+  const auto with = reachable(rig).at_load(16.138);
+  for (std::size_t i = 0; i < with.rising_lag_s.size(); ++i) {
+    EXPECT_NEAR(with.rising_lag_s[i], without.rising_lag_s[i], 1e-9);
+    EXPECT_LT(with.falling_lag_s[i], 0.5);
+  }
+}
+
+TEST(Reachable, TheRubberTubeOfAMuscleCounts) {
+  plant::Rig rig;
+  auto& tube = rig.effects.get<plant::BladderElasticity>();
+  tube.variant = plant::BladderLaw::saturating;
+  tube.force_N = 150.0;
+  rig.valve.conductance_m3_per_s_Pa /= 20.0;  // it does not swing past where friction holds it
+  const auto recording = ride(rig, 16.138, 20.0, step(4.0, 20.0));
+  const double top = recording.samples.back().state.joint.contraction_ratio;
+  EXPECT_NEAR(reachable(rig).at_load(16.138).highest, top, 0.02 * top);
+  EXPECT_GT(reachable({}).at_load(16.138).highest, 1.1 * top);
+}
+
 TEST(Reachable, RiseAfterAFullStepAgreesWhereTheFlowDecides) {
   plant::Rig rig;
   rig.valve.conductance_m3_per_s_Pa /= 20.0;  // a valve so slow that inertia does not matter

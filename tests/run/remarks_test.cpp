@@ -88,6 +88,22 @@ TEST(Remarks, AnOpenLoopThatEndsOffItsTargetIsToldWhy) {
   EXPECT_EQ(missed_warning(run, wanted, settings, rig), "") << "the target does not rest at the end";
 }
 
+TEST(Remarks, AStaticInverseIsToldThatItKnowsNoRubber) {
+  plant::Rig rig;
+  Wanted wanted;
+  wanted.ratios.assign(200, 0.03);
+  std::fill(wanted.ratios.begin() + 50, wanted.ratios.end(), 0.13);
+  TrackedRun run{.load_kg = 16.0, .controller = "static_inverse"};
+  run.recording.samples.resize(200);
+  run.recording.samples.front().state.joint.contraction_ratio = 0.03;
+  run.metrics.final_error = -0.05;
+  EXPECT_EQ(missed_warning(run, wanted, controllers::StaticInverseSettings{}, rig), "");
+  rig.effects.get<plant::BladderElasticity>().stiffness_N_per_m = 1000.0;
+  EXPECT_EQ(missed_warning(run, wanted, controllers::StaticInverseSettings{}, rig),
+            "it ends 15.0 mm below its target; its law has no rubber tube (effects.bladder_elasticity), and "
+            "this rig has one: kind: model_inverse has it, too, and feedback helps");
+}
+
 // T 4.3: what it weighs may be wrong by a tenth.
 TEST(Remarks, AWrongLoadIsToldWhereverTheRunEnds) {
   TrackedRun run;
