@@ -41,6 +41,15 @@ class Env(unittest.TestCase):
         self.assertTrue(all(9.0 <= load <= 10.0 for load in loads))
         self.assertEqual(env.reset(options={"load_kg": 15.0})[1]["load_kg"], 15.0)
 
+    def test_loads_are_of_the_rig_if_left_out(self):
+        for rig in ("thesis", "festo_dmsp_5", "festo_dmsp_40"):
+            env = mckibben.Env(rig, duration_s=3.0)
+            self.assertEqual(env.loads_kg, (0.5 * mckibben.Rig(rig).usual_load_kg, 1.5 * mckibben.Rig(rig).usual_load_kg))
+            env.reset(seed=1, options={"load_kg": env.loads_kg[1]})
+            for _ in range(240):
+                info = env.step([1.0])[4]
+            self.assertGreater(info["true_contraction_ratio"], 0.05, rig)
+
     def test_its_history_is_there_to_be_plotted(self):
         env = mckibben.Env(duration_s=0.6)
         env.reset(seed=1)

@@ -66,7 +66,7 @@ class Task:
     command for each, and what is read and wanted is the joint's angle."""
     TARGET = {"kind": "sine", "mean": 0.1, "amplitude": 0.05, "period": "4 s"}
     PAIR_TARGET = {"kind": "sine", "mean": "0 deg", "amplitude": "15 deg", "period": "4 s"}
-    LOADS_KG, HEAVIEST = (8.0, 23.0), 500.0
+    HEAVIEST = 500.0
     MOST, FASTEST = 0.5, 20.0  # contraction ratio [1] that no braid reaches, its speed [1/s]
     MOST_RAD, FASTEST_RAD = math.pi, 100.0
 
@@ -75,21 +75,20 @@ class Task:
             if isinstance(value, (list, tuple)) and not value:
                 raise ValueError(f"{name}: a list of one at least, for each episode to draw from")
         self.pair = None  # as the first rig is
-        if isinstance(rig, (list, tuple)):
-            self.rig = [self.made(one) for one in rig]
-        else:
-            self.rig = rig if callable(rig) else self.made(rig)
-        if self.pair is None:
-            self.made(rig(numpy.random.default_rng(0)))
+        several = isinstance(rig, (list, tuple))
+        made = [self.made(one) for one in (rig if several else [rig(numpy.random.default_rng(0)) if callable(rig) else rig])]
+        self.rig = rig if callable(rig) else made if several else made[0]
+        self.rigs = [] if callable(rig) else made  # known before they are drawn
         if self.pair and loads_kg is not None:
             raise ValueError(f"loads_kg = {loads_kg!r}: must be left out; no load hangs on a pair of muscles")
         if self.pair and target is drawn_target:
             raise ValueError("target: drawn_target draws contraction ratios, of one muscle; a pair wants angles, such as lambda random: "
                              "{'kind': 'sine', 'mean': '0 deg', 'amplitude': f'{random.uniform(5, 15)} deg', 'period': '4 s'}")
-        loads_kg = self.LOADS_KG if loads_kg is None else loads_kg
+        if loads_kg is None:
+            usual_kg = min(one.usual_load_kg for one in made)
+            loads_kg = 0.5 * usual_kg, 1.5 * usual_kg
         if isinstance(loads_kg, str) or numpy.shape(loads_kg) != (2,):
             raise ValueError(f"loads_kg = {loads_kg!r}: two masses are wanted, the lightest and the heaviest, such as (8.0, 23.0)")
-        self.rigs = self.rig if isinstance(self.rig, list) else [] if callable(self.rig) else [self.rig]  # known before they are drawn
         self.loads_kg = tuple(sorted(self.load(f"loads_kg[{i}]", load) for i, load in enumerate(loads_kg)))
         default = self.PAIR_TARGET if self.pair else self.TARGET
         self.target = default if target is None else target
