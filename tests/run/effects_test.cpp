@@ -99,7 +99,9 @@ TEST(EffectsInARun, ControllersDoNotKnowThem) {
   EXPECT_EQ(known.contraction_per_count, nominal.contraction_per_count);
   EXPECT_EQ(known.model.end_correction, nominal.model.end_correction);
   EXPECT_EQ(known.valve.zero_pressure_Pa, nominal.valve.zero_pressure_Pa);
-  const auto reach = reachable(rig), without = reachable({});
+  plant::Rig muscle;  // of which the rubber tube is a part
+  muscle.effects.get<plant::BladderElasticity>() = rig.effects.get<plant::BladderElasticity>();
+  const auto reach = reachable(rig), without = reachable(muscle);
   ASSERT_EQ(reach.loads.size(), without.loads.size());
   for (std::size_t i = 0; i < reach.loads.size(); ++i) {
     EXPECT_EQ(reach.loads[i].highest, without.loads[i].highest);
