@@ -154,7 +154,7 @@ class Readings {
     if (result_.left_out[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true) - absent;
     const auto read = static_cast<std::ptrdiff_t>(masked.size()) - absent;
-    if (const auto row = lost_counts(values, sharpest, masked, count))
+    if (const auto row = lost_counts(values, sharpest, masked, count, data_.row_s()))
       leave_out(i, lost_in_words(i, values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > of_readings.most_masked * static_cast<double>(read) || read == 0)
       leave_out(i, "too little of it is left");

@@ -11,6 +11,20 @@ namespace {
 
 constexpr const ReadingThresholds& beyond = thresholds.reading;
 
+/// How many rows show one reading until the sensor has the next: the median, where it moves.
+std::size_t rows_per_reading(const Series& values, double count, double tick_s) {
+  const auto longest = static_cast<std::size_t>(std::lround(beyond.still_s / tick_s));
+  std::vector<double> rows;
+  for (std::size_t k = 1, last = 0; k < values.size(); ++k) {
+    const double step = std::abs(values[k] - values[k - 1]);
+    if (step == 0.0) continue;
+    const bool moves = step > beyond.end_counts * count;
+    if (moves && last > 0 && k - last < longest) rows.push_back(static_cast<double>(k - last));
+    last = moves ? k : 0;
+  }
+  return rows.empty() ? 1 : static_cast<std::size_t>(upper_median(std::move(rows)));
+}
+
 }  // namespace
 
 Series sharpest_nearby(const Series& model, double tick_s) {
@@ -59,16 +73,25 @@ std::vector<Stretch> spikes(Series values, const Series& sharpest, double count,
 }
 
 std::optional<std::size_t> lost_counts(const Series& values, const Series& sharpest,
-                                       const std::vector<bool>& masked, double count) {
+                                       const std::vector<bool>& masked, double count, double tick_s) {
+  const std::size_t hold = rows_per_reading(values, count, tick_s), reach = 2 * hold - 1;
+  const auto bends = static_cast<double>(hold * hold);  // of the model, in the time of one reading
+  const auto step = [&](std::size_t k) { return values[k] - values[k - 1]; };
   std::vector<double> steps;
-  for (std::size_t k = 1; k < values.size(); ++k) steps.push_back(std::abs(values[k] - values[k - 1]));
+  for (std::size_t k = hold; k < values.size(); ++k) steps.push_back(std::abs(values[k] - values[k - hold]));
   if (steps.empty()) return std::nullopt;
   const double noise = beyond.lost_steps * upper_median(std::move(steps));
-  for (std::size_t k = 2; k + 1 < values.size(); ++k) {
-    if (masked[k - 2] || masked[k - 1] || masked[k] || masked[k + 1]) continue;
-    const double before = values[k - 1] - values[k - 2], after = values[k + 1] - values[k];
-    const double jump = std::abs(values[k] - values[k - 1] - 0.5 * (before + after));
-    if (jump > noise + beyond.lost_counts * count + beyond.lost_bends * sharpest[k] &&
+  for (std::size_t k = reach + 1; k + reach < values.size(); ++k) {
+    if (step(k) == 0.0) continue;
+    std::size_t last = k - 1, next = k + 1;  // the readings' changes before and after this one
+    while (last > k - reach && step(last) == 0.0) --last;
+    while (next < k + reach && step(next) == 0.0) ++next;
+    const auto first_masked = masked.begin() + static_cast<std::ptrdiff_t>(last - 1);
+    const auto end = masked.begin() + static_cast<std::ptrdiff_t>(next + 1);
+    if (std::find(first_masked, end, true) != end) continue;
+    const double before = step(last), after = step(next);
+    const double jump = std::abs(step(k) - 0.5 * (before + after));
+    if (jump > noise + beyond.lost_counts * count + beyond.lost_bends * bends * sharpest[k] &&
         std::abs(after - before) < beyond.lost_change * jump)
       return k;
   }

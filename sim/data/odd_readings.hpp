@@ -30,8 +30,9 @@ Series sharpest_nearby(const Series& model, double tick_s);
 std::vector<Stretch> spikes(Series values, const Series& sharpest, double count, bool at_ends);
 
 /// A row at which the reading jumps and stays: the load moves before and after as if nothing had happened.
+/// Rows that only repeat a reading, as of a sensor that is slower than the logger, are no rest.
 std::optional<std::size_t> lost_counts(const Series& values, const Series& sharpest,
-                                       const std::vector<bool>& masked, double count);
+                                       const std::vector<bool>& masked, double count, double tick_s);
 
 /// Where the reading stays the same to the last bit although the model moves far. Friction may hold a load
 /// that the model moves, and so may the braid stop: the reading must also stop as no friction could stop it,
