@@ -188,7 +188,7 @@ std::string unit_word(std::string_view text) {
     text.remove_suffix(1);
   }
   if (text.empty() || (text != "1" && text.find_first_of("0123456789+-.") == 0)) return "";
-  if (text == "°") return "deg";
+  if (text == "°" || text == "Grad" || text == "Winkelgrad") return "deg";
   if (text == "counts") return "count";
   constexpr std::array itself{"%", "count", "date", "1"};
   constexpr std::array measured{"s", "mA", "V", "bar", "N", "m", "rad", "kg", "K"};

@@ -70,6 +70,8 @@ ut_system* unit_system() {
     if (!read) throw std::runtime_error("the unit database of UDUNITS-2 (libudunits2-data) is not installed");
     const Unit degree(ut_parse(read.get(), "degree", UT_ASCII));
     ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+    ut_map_name_to_unit("Winkelgrad", UT_ASCII, degree.get());
+    ut_map_symbol_to_unit("Grad", UT_ASCII, degree.get());  // G and rad otherwise; grad may be gon
     return read;
   }();
   return system.get();
