@@ -116,7 +116,8 @@ struct Sensor {
     const SensorSheet& sheet = self.sheet();
     const std::string_view unit = sheet.unit;
     if (self.counts_pulses()) {
-      visit("pulses_per_turn", self.pulses_per_turn, 1, 10000000, "pulses of one turn of the encoder's disk");
+      visit("pulses_per_turn", self.pulses_per_turn, 1, 10000000,
+            "counts per turn of the disk, after quadrature");
       visit("wheel_ratio", self.wheel_ratio, "1", 0.01, 1000.0,
             "turns of the disk for one turn of the joint");
       visit("wiring", self.wiring,

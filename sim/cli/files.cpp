@@ -79,7 +79,7 @@ Looked read_any(const std::filesystem::path& path, std::vector<Problem>& warning
   const std::string kind = schema == nullptr ? "" : schema->text.substr(0, schema->text.find('/'));
   if (kind == "mckibben-rig") {
     std::vector<domain::InputFile> inputs;
-    input::read_rig(path.string(), inputs);
+    input::read_rig(path.string(), inputs, &warnings);
   } else if (kind == "mckibben-dataset") {
     return read_measured(path, warnings);
   } else if (kind == "mckibben-campaign") {

@@ -264,16 +264,17 @@ Rig read_base(const Source& source, const Node& node) {
   return rig;
 }
 
-Rig read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs) {
+Rig read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs,
+             std::vector<Problem>* warnings) {
   if (is_shipped(name_or_path)) return with_stops(shipped_rig(name_or_path));
   std::error_code ignored;
   if (!looks_like_path(name_or_path) && !fs::exists(name_or_path, ignored))
     throw MissingInput(fmt::format("unknown rig {}{} (shipped: {}; or the path of a rig file)", name_or_path,
                                    did_you_mean(name_or_path, shipped), join(shipped)));
-  return read_rig(Source::load(name_or_path, largest_yaml_bytes), inputs);
+  return read_rig(Source::load(name_or_path, largest_yaml_bytes), inputs, warnings);
 }
 
-Rig read_rig(Source source, std::vector<InputFile>& inputs) {
+Rig read_rig(Source source, std::vector<InputFile>& inputs, std::vector<Problem>* warnings) {
   Rig rig;
   Problems problems;
   const YamlFile file = parse_yaml(std::move(source));
@@ -282,6 +283,8 @@ Rig read_rig(Source source, std::vector<InputFile>& inputs) {
   read_rig_map(file, rig, problems, chain);
   problems.raise();
   inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
+  const std::vector<Problem> odd = problems.warnings();
+  if (warnings != nullptr) warnings->insert(warnings->end(), odd.begin(), odd.end());
   return with_stops(std::move(rig));
 }
 

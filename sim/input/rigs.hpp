@@ -24,11 +24,12 @@ bool is_shipped(std::string_view name);
 /// The name of the first of them of which `holds` is true; empty if there is none.
 std::string shipped_rig_where(const std::function<bool(const Rig&)>& holds);
 
-/// The rig of that name, or of the file at that path; the files read are added to `inputs`.
-/// Throws MissingInput, BadInput.
-Rig read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs);
+/// The rig of that name, or of the file at that path; the files read are added to `inputs`, and what is odd
+/// in them to `warnings`. Throws MissingInput, BadInput.
+Rig read_rig(const std::string& name_or_path, std::vector<InputFile>& inputs,
+             std::vector<Problem>* warnings = nullptr);
 /// The same from the text of a rig file at hand; relative paths start at the source's folder.
-Rig read_rig(Source source, std::vector<InputFile>& inputs);
+Rig read_rig(Source source, std::vector<InputFile>& inputs, std::vector<Problem>* warnings = nullptr);
 
 /// The contents of a rig file that holds every field.
 Json rig_json(const Rig& rig);

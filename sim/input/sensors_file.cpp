@@ -90,6 +90,18 @@ class Element : public StructReader {
     check_unknown({});
     const auto report = [this](std::string_view key, std::string_view message) { broken_rule(key, message); };
     if (clean()) sensor.rules(report);
+    if (clean() && sensor.counts_pulses()) own_gearing(sensor.wheel_ratio);
+  }
+
+  /// Another encoder hardly has the gearing of the base's.
+  void own_gearing(double wheel_ratio) {
+    const Node* pulses = map_.find("pulses_per_turn");
+    if (pulses == nullptr || map_.find("wheel_ratio") != nullptr || wheel_ratio == 1.0) return;
+    problems_.warning(
+        source_, pulses->place,
+        fmt::format("pulses_per_turn = {} without wheel_ratio: the base's {:g} turns of the disk "
+                    "for one of the joint stay; write wheel_ratio: 1 if there is no gearing",
+                    pulses->text, wheel_ratio));
   }
 };
 

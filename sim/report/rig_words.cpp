@@ -93,9 +93,11 @@ std::string encoder(const plant::Rig& rig) {
   const std::string step = rig.has_angle()
                                ? readable(height_m / rig.joint.wheel_radius_m, "rad") + " of angle"
                                : readable(height_m, "m") + " of height";
-  return rig.sensors.position().counts_pulses()
-             ? (rig.lever() != nullptr ? "on the joint: a count is " : "on the wheel: a count is ") + step
-             : "in steps of " + step;
+  const plant::Sensor& position = rig.sensors.position();
+  if (!position.counts_pulses()) return "in steps of " + step;
+  return fmt::format(
+      "on the {}{}: a count is {}", rig.lever() != nullptr ? "joint" : "wheel",
+      position.wheel_ratio == 1.0 ? "" : fmt::format(", geared {:g} to 1", position.wheel_ratio), step);
 }
 
 std::string in_words(std::string_view name) {

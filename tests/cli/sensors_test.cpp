@@ -43,5 +43,16 @@ TEST(SensorsOfARig, AreWhatADatasetIsReadThrough) {
   EXPECT_EQ(document.at("runs").at(0).at("gaps").size(), 2u);
 }
 
+TEST(SensorsOfARig, CheckNamesTheGearingOfTheBase) {
+  Scratch scratch;
+  write_text(scratch / "rig.yaml",
+             "schema: mckibben-rig/1\n"
+             "sensors: [{signal: contraction, kind: encoder, pulses_per_turn: 2500}]\n");
+  const Said said = mckibben("check rig.yaml", scratch);
+  EXPECT_EQ(said.status, 0);
+  EXPECT_NE(said.err.find("rig.yaml:2:"), std::string::npos) << said.err;
+  EXPECT_NE(said.err.find("write wheel_ratio: 1 if there is no gearing"), std::string::npos) << said.err;
+}
+
 }  // namespace
 }  // namespace mckibben::cli

@@ -4,6 +4,7 @@
 
 #include <sim/domain/rig_number.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/input/yaml_reader.hpp>
 
 #include "rig_text.hpp"
@@ -74,6 +75,23 @@ TEST(SensorFile, WhatTheBaseHasStaysUntilItIsNamed) {
       "[{signal: muscle_pressure, kind: none}, {signal: contraction, kind: laser, resolution: 1 mm}]");
   ASSERT_EQ(without.size(), 1u);
   EXPECT_EQ(without.position().kind, SensorKind::laser);
+}
+
+TEST(SensorFile, AnEncoderOfItsOwnIsToldTheGearingThatItTakesOver) {
+  const auto said_of = [](const std::string& encoder) {
+    std::vector<InputFile> inputs;
+    std::vector<Problem> warnings;
+    read_rig(Source("rig.yaml", "schema: mckibben-rig/1\nbase: festo_dmsp_20\n" + encoder, ""), inputs,
+             &warnings);
+    return warnings.empty() ? "" : warnings.front().message;
+  };
+  const std::string says =
+      "pulses_per_turn = 2500 without wheel_ratio: the base's 2 turns of the disk for one of the joint stay; "
+      "write wheel_ratio: 1 if there is no gearing";
+  EXPECT_EQ(said_of("sensors: [{signal: contraction, kind: encoder, pulses_per_turn: 2500}]"), says);
+  EXPECT_EQ(said_of("encoder: {pulses_per_turn: 2500}"), says);
+  EXPECT_EQ(said_of("encoder: {pulses_per_turn: 2500, wheel_ratio: 2}"), "");
+  EXPECT_EQ(said_of("encoder: {wiring: ideal}"), "");
 }
 
 TEST(SensorFile, TheNumbersOfSensorsAreFoundByTheirSignalAndAsTheyWereCalled) {

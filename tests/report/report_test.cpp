@@ -322,7 +322,10 @@ TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
 TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
   Contents contents;
   plant::Rig& rig = contents.rig;
-  EXPECT_TRUE(holds(rig_html(contents), "<dt>gauge</dt><dd>none", "none: nominal laws only"));
+  EXPECT_TRUE(holds(rig_html(contents), "<dt>gauge</dt><dd>none", "none: nominal laws only",
+                    "on the wheel, geared 2 to 1: a count is"));
+  rig.sensors.position().wheel_ratio = 1.0;
+  EXPECT_TRUE(holds(rig_html(contents), "on the wheel: a count is"));
   rig.valve.zero_command = 0.0;
   rig.joint.wheel_radius_m = 0.2;
   rig.effects.get<plant::MuscleLeak>().conductance_m3_per_s_Pa = 1e-10;
