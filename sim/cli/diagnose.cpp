@@ -84,6 +84,9 @@ int diagnose_dataset(const DiagnoseOptions& options) {
     job.write(tasks::kept_search, tasks::bytes_of(found.simulated, data.inputs));
   if (!diagnosis.residual_law.empty()) job.write("law.yaml", output::law_yaml(data, diagnosis));
   job.write("report.html", report::report_html(data, diagnosis, found.nominal, found.corrected));
+  if (const std::string picture = report::before_after_svg(data, diagnosis, found.nominal, found.corrected);
+      !picture.empty())
+    job.write("before_after.svg", picture);
   const auto file = [&](const char* leaf) { return (job.where() / leaf).string(); };
   const std::string law = diagnosis.residual_law.empty() ? "" : fmt::format("law    {}\n", file("law.yaml"));
   const std::string files = fmt::format("\nreport {}\nrig    {}\n{}all    {}\n", file("report.html"),
@@ -128,7 +131,8 @@ void add_diagnose(CLI::App& app, Asked& asked) {
       "  mckibben diagnose measured/ --resume out/measured-diagnose\n"
       "  mckibben diagnose measured/ --out diagnosis --plan next.yaml\n"
       "  mckibben diagnose measured/ --hypothesis my_law.yaml\n"
-      "Writes report.html (to read), rig.yaml (the corrected rig, for run and replay) and diagnosis.json;\n"
+      "Writes report.html (to read), before_after.svg (its first picture), rig.yaml (the corrected rig, for "
+      "run and replay) and diagnosis.json;\n"
       "law.yaml if it found a law that no effect of the catalogue has, to be put to the test with "
       "--hypothesis.\n");
 }

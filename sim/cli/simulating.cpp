@@ -209,6 +209,8 @@ int replay_dataset(const ReplayOptions& options) {
   job.write("run.json", document);
   job.write("table.txt", table);
   job.write("report.html", report::report_html(dataset, runs, warnings));
+  if (const std::string picture = report::tracking_svg(dataset, runs); !picture.empty())
+    job.write("tracking.svg", picture);
   return job.finish({document, table}, any_failed(runs) ? failure : done,
                     options.rig.empty() ? "diagnose " + options.dataset : "");
 }
@@ -245,7 +247,7 @@ void add_replay(CLI::App& app, Asked& asked) {
       "  mckibben replay measured/\n"
       "  mckibben replay labview.yaml --format mat        .lvm and .mat in, .mat out: docs/formats.md\n"
       "  mckibben replay measured/ --rig my_rig.yaml --out compared\n"
-      "Writes table.txt, run.json and the simulation of each run as CSV.\n");
+      "Writes table.txt, run.json, report.html, tracking.svg and the simulation of each run as CSV.\n");
 }
 
 }  // namespace mckibben::cli

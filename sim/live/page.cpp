@@ -99,7 +99,8 @@ Page page_of(const std::string& name, const plant::Rig& rig, const Session& sess
       "src='page.js'></script>\n</body>\n</html>\n",
       escaped(name), session.pair() ? "" : report::unit_switch, panel_of(session), stage_html,
       MCKIBBEN_VERSION, escaped(report::uplot_licence), data_of(rig, session));
-  for (const auto& part : {report::uplot_css, report::page_css, live_css}) page.css += part;
+  for (const auto& part : {report::uplot_css, report::picture_css, report::page_css, live_css})
+    page.css += part;
   page.js = std::string(report::uplot_js) + "\n'use strict';\n";
   for (const auto& part : {report::data_js, report::plots_js, report::rig_js, report::pair_js,
                            report::lever_js, scroll_js, panel_js, live_js})

@@ -7,7 +7,7 @@
 namespace mckibben::report {
 
 extern const std::string_view uplot_js, uplot_css, uplot_licence;
-extern const std::string_view page_css;
+extern const std::string_view picture_css, page_css;
 extern const std::string_view data_js, plots_js, loops_js, rig_js, pair_js, lever_js, page_js;
 
 }  // namespace mckibben::report

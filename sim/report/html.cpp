@@ -200,7 +200,7 @@ std::string html_of(const Contents& contents) {
       "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
       "<meta name='viewport' content='width=device-width,initial-scale=1'>\n<title>{}</title>\n",
       escaped(contents.title));
-  html += fmt::format("<style>\n{}\n{}</style>\n", runs ? uplot_css : "", page_css);
+  html += fmt::format("<style>\n{}\n{}{}</style>\n", runs ? uplot_css : "", picture_css, page_css);
   if (runs) html += "<script>document.documentElement.classList.add('live')</script>\n";
   html += "</head>\n<body>\n<main>\n";
   if (contents.lengths) html += unit_switch;

@@ -261,4 +261,15 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
   return html_of(contents);
 }
 
+std::string before_after_svg(const domain::Dataset& data, const Diagnosis& diagnosis,
+                             const std::vector<ReplayedRun>& nominal,
+                             const std::vector<ReplayedRun>& corrected) {
+  const RunGap* telling = telling_run(diagnosis);
+  if (telling == nullptr) return "";
+  const Group run =
+      group_of(data, diagnosis, *telling, by_id(nominal, telling->id), by_id(corrected, telling->id));
+  if (run.runs.empty()) return "";
+  return opening_svg(data, diagnosis, run, plots(data, diagnosis), loops_of_runs(data).front());
+}
+
 }  // namespace mckibben::report

@@ -15,6 +15,8 @@
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
 #include <sim/report/report.hpp>
+#include <sim/report/sheet.hpp>
+#include <sim/report/still.hpp>
 #include <sim/report/tables.hpp>
 
 namespace mckibben::report {
@@ -119,10 +121,8 @@ Contents contents_of(const plant::Rig& rig, const run::Driven& driven) {
   return contents;
 }
 
-}  // namespace
-
-std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
-                        const std::vector<std::string>& warnings) {
+/// Plots, loops and runs of the page.
+Contents drawn_of(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
   const auto measured = [&](const char* reading) {
     return std::any_of(runs.begin(), runs.end(), [&](const auto& run) {
       return std::any_of(run.gaps.begin(), run.gaps.end(),
@@ -132,14 +132,7 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::R
   const auto first = std::ranges::find_if(runs, drawn);
   const run::Driven driven = first == runs.end() ? run::Driven{} : first->recording.driven;
   Contents contents = contents_of(dataset.rig, driven);
-  contents.title = "Replay of " + output::name_of(dataset);
-  contents.about = fmt::format("{} measured run{}, simulated with what drove them", runs.size(),
-                               runs.size() == 1 ? "" : "s");
-  contents.warnings = warnings;
-  contents.sentence = sentence(dataset, runs);
-  contents.table = gaps_table(dataset, runs);
   contents.gauge = measured("muscle_pressure") || driven.pressure[0] == plant::GivenPressure::muscle;
-  contents.details = output::table_of(dataset, runs, warnings);
   constexpr auto none = plant::GivenPressure::none;
   const bool angle = dataset.rig.has_angle(), position = measured(angle ? "angle" : "contraction");
   const std::string title = angle ? "Joint angle" : "Contraction";
@@ -175,7 +168,37 @@ std::string report_html(const domain::Dataset& dataset, const std::vector<run::R
     group.runs.push_back(std::move(shown));
     contents.groups.push_back(std::move(group));
   }
+  return contents;
+}
+
+std::vector<std::pair<std::string, std::string>> keys_of(const Contents& contents) {
+  std::vector<std::pair<std::string, std::string>> keys{{"run c0 d0", "simulated"}};
+  if (contents.plots.front().lines.front().given) keys.insert(keys.begin(), {"given", "measured"});
+  return keys;
+}
+
+}  // namespace
+
+std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
+                        const std::vector<std::string>& warnings) {
+  Contents contents = drawn_of(dataset, runs);
+  contents.title = "Replay of " + output::name_of(dataset);
+  contents.about = fmt::format("{} measured run{}, simulated with what drove them", runs.size(),
+                               runs.size() == 1 ? "" : "s");
+  contents.warnings = warnings;
+  contents.sentence = sentence(dataset, runs);
+  contents.table = gaps_table(dataset, runs);
+  contents.details = output::table_of(dataset, runs, warnings);
   return html_of(contents);
+}
+
+std::string tracking_svg(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs) {
+  const Contents all = drawn_of(dataset, runs);
+  std::vector<Picture> panels;
+  for (const Group& group : all.groups)
+    panels.push_back(
+        {group.name, still_svg(group, all.plots.front(), all.rig, ticks_looked_at(runs.size()))});
+  return sheet_svg(panels, still_width, still_height, keys_of(all), all.plots.front().title);
 }
 
 }  // namespace mckibben::report

@@ -15,6 +15,7 @@
 #include <sim/report/diagnosis_chapters.hpp>
 #include <sim/report/opening.hpp>
 #include <sim/report/rig_parts.hpp>
+#include <sim/report/sheet.hpp>
 #include <sim/report/still.hpp>
 
 namespace mckibben::report {
@@ -200,10 +201,30 @@ std::string loop_and_rig(const domain::Dataset& data, const Diagnosis& diagnosis
   return svg;
 }
 
-std::string key_of(const std::string& kind, const std::string& words) {
-  return fmt::format(
-      "<span><svg viewBox='0 0 34 10' aria-hidden='true'><path class='{}' d='M0 5H34'/></svg>{}</span>", kind,
-      words);
+/// The two pictures.
+std::vector<Picture> pictures_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Group& run,
+                                 const std::vector<Plot>& plots, const Loop& loop) {
+  const Plot& error = *std::ranges::find(plots, "error", &Plot::id);
+  const double floor = diagnosis.gap.noise_floor / output::words_of(data.judged()).size;
+  return {
+      {"", picture_of("Measured, before and after, over time",
+                      over_time(run, plots.front(), error, floor, data.rig))},
+      {"", picture_of("The same as a loop, and what was added", loop_and_rig(data, diagnosis, run, loop))}};
+}
+
+std::string caption_of(const Diagnosis& diagnosis, const Group& run) {
+  return fmt::format("{}. Below: measured less model, and the noise floor as a band.{}", run.name,
+                     found_in(diagnosis).empty() ? ""
+                                                 : " Right: where the effect acts, and a slow loop without "
+                                                   "it (wide) and with it.");
+}
+
+/// Class and words of each line.
+std::vector<std::pair<std::string, std::string>> keys_of(const Group& run) {
+  std::vector<std::pair<std::string, std::string>> keys{{"given", "measured"}};
+  for (const Run& one : run.runs)
+    keys.emplace_back(fmt::format("run c{} d{}", one.style % 7, one.style % 4), one.name);
+  return keys;
 }
 
 }  // namespace
@@ -224,22 +245,22 @@ const diagnose::RunGap* telling_run(const Diagnosis& diagnosis) {
 std::string opening_html(const domain::Dataset& data, const Diagnosis& diagnosis, const Group& whole,
                          const std::vector<Plot>& plots, const Loop& loop) {
   const Group run = before_and_after(whole);
-  const auto error = std::ranges::find(plots, "error", &Plot::id);
-  std::string keys = key_of("given", "measured");
-  for (const Run& one : run.runs)
-    keys += key_of(fmt::format("run c{0} d{1}", one.style % 7, one.style % 4), one.name);
-  return "<figure class='opening'>\n<p class='keys'>" + keys + "</p>\n<div>\n" +
-         picture_of("Measured, before and after, over time",
-                    over_time(run, plots.front(), *error,
-                              diagnosis.gap.noise_floor / output::words_of(data.judged()).size, data.rig)) +
-         picture_of("The same as a loop, and what was added", loop_and_rig(data, diagnosis, run, loop)) +
-         fmt::format(
-             "</div>\n<figcaption>{}. Below: measured less model, and the noise floor as a band.{}"
-             "</figcaption>\n</figure>\n",
-             escaped(run.name),
-             found_in(diagnosis).empty() ? ""
-                                         : " Right: where the effect acts, and a slow loop without it "
-                                           "(wide) and with it.");
+  std::string html = "<figure class='opening'>\n<p class='keys'>";
+  for (const auto& [kind, words] : keys_of(run))
+    html += fmt::format(
+        "<span><svg viewBox='0 0 34 10' aria-hidden='true'><path class='{}' d='M0 5H34'/></svg>{}</span>",
+        kind, words);
+  html += "</p>\n<div>\n";
+  for (const Picture& one : pictures_of(data, diagnosis, run, plots, loop)) html += one.svg;
+  return html +
+         fmt::format("</div>\n<figcaption>{}</figcaption>\n</figure>\n", escaped(caption_of(diagnosis, run)));
+}
+
+std::string opening_svg(const domain::Dataset& data, const Diagnosis& diagnosis, const Group& whole,
+                        const std::vector<Plot>& plots, const Loop& loop) {
+  const Group run = before_and_after(whole);
+  return sheet_svg(pictures_of(data, diagnosis, run, plots, loop), whole_wide, whole_high, keys_of(run),
+                   caption_of(diagnosis, run));
 }
 
 }  // namespace mckibben::report

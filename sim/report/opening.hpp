@@ -19,4 +19,8 @@ const diagnose::RunGap* telling_run(const diagnose::Diagnosis& diagnosis);
 std::string opening_html(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis, const Group& run,
                          const std::vector<Plot>& plots, const Loop& loop);
 
+/// The same as a file of its own.
+std::string opening_svg(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis, const Group& run,
+                        const std::vector<Plot>& plots, const Loop& loop);
+
 }  // namespace mckibben::report

@@ -25,6 +25,10 @@ std::string report_html(const domain::Scenario& scenario, const run::Comparison&
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
                         const std::vector<std::string>& warnings = {});
 
+/// As a file of its own, a panel for each run: what the page's plots begin with, measured and simulated;
+/// empty if nothing was simulated.
+std::string tracking_svg(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs);
+
 /// A campaign's measurements; runs with their rows.
 std::string report_html(const domain::Campaign& campaign, const std::vector<run::EndedRun>& ended,
                         const domain::Dataset& dataset);
@@ -38,6 +42,11 @@ std::string report_html(const domain::Dataset& dataset, const thesis::Calibratio
 std::string report_html(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis,
                         const std::vector<run::ReplayedRun>& nominal,
                         const std::vector<run::ReplayedRun>& corrected);
+
+/// What that page opens with as a file of its own; empty if nothing was compared.
+std::string before_after_svg(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis,
+                             const std::vector<run::ReplayedRun>& nominal,
+                             const std::vector<run::ReplayedRun>& corrected);
 
 /// Error maps.
 std::string report_html(const run::MapPlan& plan, const run::ErrorMaps& maps);

@@ -13,8 +13,7 @@ namespace {
 
 using output::escaped;
 
-constexpr double picture_width = 460.0, picture_height = 300.0, left = 66.0, right = 10.0, top = 10.0,
-                 bottom = 42.0;
+constexpr double left = 66.0, right = 10.0, top = 10.0, bottom = 42.0;
 
 std::string attribute(char name, const output::Scale& scale) {
   return fmt::format(" data-{}='{} {} {} {}'", name, scale.low, scale.high, scale.from_px, scale.to_px);
@@ -57,16 +56,15 @@ std::string run_class(const Run& run, const char* shape = "run") {
 
 std::string chart(const std::string& head, const std::string& x_label, const std::string& y_label,
                   const std::vector<Curve>& curves, const plant::Rig& rig, double floor = 0.0) {
-  output::Panel panel{.x = {left, picture_width - right},
-                      .y = {picture_height - bottom, top, floor},
-                      .words_px = left - 11.0};
+  output::Panel panel{
+      .x = {left, still_width - right}, .y = {still_height - bottom, top, floor}, .words_px = left - 11.0};
   output::Scale &x = panel.x, &y = panel.y;
   hold(curves, panel);
   if (x.low > x.high) return "";
   if (floor > 0.0) y.hold(-1.5 * floor), y.hold(1.5 * floor);
   for (output::Scale* scale : {&x, &y}) scale->widen(1e-6 + 2e-3 * std::abs(scale->high));
-  std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", picture_width,
-                                picture_height, head, attribute('x', x), attribute('y', y));
+  std::string svg = fmt::format("<svg role='img' viewBox='0 0 {} {}' {}{}{}>\n", still_width, still_height,
+                                head, attribute('x', x), attribute('y', y));
   svg += axes_svg(panel, x_label, y_label, rig);
   for (const auto& curve : curves)
     if (curve.shown) svg += curve_svg(curve, panel);

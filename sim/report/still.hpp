@@ -12,6 +12,9 @@
 
 namespace mckibben::report {
 
+/// Size of a picture [px].
+inline constexpr double still_width = 460.0, still_height = 300.0;
+
 /// How many ticks of a run are looked at in a report of so many runs.
 std::size_t ticks_looked_at(std::size_t runs);
 

@@ -78,9 +78,13 @@ TEST_F(Given, TheValvesPressureFillsTheMuscleAsTheValveDid) {
   EXPECT_FALSE(table.contains("current_mA"));
   EXPECT_TRUE(table.contains("valve_pressure_bar"));
   EXPECT_NE(read_text(scratch / "again/report.html").find("\"valve_pressure\":"), std::string::npos);
+  const std::string tracking = read_text(scratch / "again/tracking.svg");
+  EXPECT_TRUE(
+      holds(tracking, ">measured<", "<path class='given' d='M", "<path class='run c0 d0' data-run='0'"));
   EXPECT_EQ(mckibben("check dataset.yaml", scratch).status, 0);
   const Said diagnosed = mckibben("diagnose dataset.yaml --out other", scratch);
   EXPECT_EQ(diagnosed.status, 0) << diagnosed.err;
+  EXPECT_TRUE(read_text(scratch / "other/before_after.svg").starts_with("<svg xmlns="));
   EXPECT_TRUE(holds(diagnosed.out, "the valve's pressure is the input: valve and supply are out of sight",
                     "one run: parts of it, r1-1 to r1-4"))
       << diagnosed.out;

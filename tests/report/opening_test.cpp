@@ -19,14 +19,18 @@ namespace {
 
 using output::diagnosed;
 
-/// The opening of the page: up to its table.
-std::string opening(const diagnose::Diagnosis& found) {
+domain::Dataset measured_as(const diagnose::Diagnosis& found) {
   domain::Dataset data = output::measured();
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     data.runs[i].contraction_ratio = found.runs[i].measured;
     data.runs[i].current_mA.assign(found.runs[i].measured.size(), 15.0);
   }
-  const std::string html = report_html(data, found, {}, {});
+  return data;
+}
+
+/// The opening of the page: up to its table.
+std::string opening(const diagnose::Diagnosis& found) {
+  const std::string html = report_html(measured_as(found), found, {}, {});
   const auto at = html.find("<figure class='opening'>");
   return at == html.npos ? "" : html.substr(at, html.find("</figure>", at) - at);
 }
@@ -56,6 +60,19 @@ TEST(Opening, ShowsMeasuredBeforeAndAfterButNotBetween) {
   EXPECT_EQ(count(html, "<path class='run c1 d1' data-run='1'"), 3u);  // and its error
   EXPECT_EQ(count(html, "<path class='run c0 d0' data-run='0'"), 3u);
   EXPECT_TRUE(lacks(html, "recalibrated"));
+}
+
+TEST(Opening, IsAFileOfItsOwnWithItsStyleInside) {
+  diagnose::Diagnosis found = diagnosed();
+  const std::string svg = before_after_svg(measured_as(found), found, {}, {});
+  EXPECT_TRUE(svg.starts_with("<svg xmlns='http://www.w3.org/2000/svg'"));
+  EXPECT_EQ(count(svg, "class='run c1 d1'"), 4u);  // the key, over time, the error, the loop
+  EXPECT_EQ(count(svg, "class='run c0 d0'"), 4u);
+  EXPECT_TRUE(holds(svg, "<style>", ".c1 { color: #d55e00; }", ">measured<", ">corrected<", ">1 muscle_leak<",
+                    "<text x='14.0' y='24.0'>r06, 18.87 kg, held out."));
+  EXPECT_TRUE(lacks(svg, "var("));  // drawing programs know no variables
+  found.runs.clear();
+  EXPECT_EQ(before_after_svg(measured_as(found), found, {}, {}), "");
 }
 
 TEST(Opening, TheBandIsAsHighAsTheNoiseFloorOnEachSide) {
