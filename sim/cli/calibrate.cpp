@@ -60,9 +60,10 @@ int calibrate_dataset(const CalibrateOptions& options) {
     job.write("figures/" + figure.file_name() + ".csv", output::csv_of(figure));
     job.write("figures/" + figure.file_name() + ".svg", output::chart_svg(figure));
   }
-  return job.finish(
-      {document, report}, done,
-      job.has_folder() ? fmt::format("map {}", (job.where() / "calibration.yaml").string()) : "");
+  const std::string written = (job.where() / "calibration.yaml").string();
+  const std::string next = fmt::format(
+      "map {0}\nor of a scenario: controllers: [{{kind: feedforward_pid, calibration: {0}}}]", written);
+  return job.finish({document, report}, done, job.has_folder() ? next : "");
 }
 
 }  // namespace

@@ -37,7 +37,12 @@ TEST(Calibrate, TurnsADataSetIntoAFileForControllersAndFigures) {
   const Said checked = mckibben("check cal/calibration.yaml", scratch);
   EXPECT_EQ(checked.status, 0) << checked.err;
 
-  ASSERT_EQ(mckibben("calibrate data --out kgf --kgf", scratch).status, 0);
+  const Said kgf = mckibben("calibrate data --out kgf --kgf", scratch);
+  ASSERT_EQ(kgf.status, 0);
+  EXPECT_TRUE(
+      holds(kgf.err,
+            "next: mckibben map kgf/calibration.yaml\n"
+            "or of a scenario: controllers: [{kind: feedforward_pid, calibration: kgf/calibration.yaml}]\n"));
   EXPECT_EQ(read_text(scratch / "kgf" / "calibration.yaml"), read_text(folder / "calibration.yaml"));
   EXPECT_TRUE(holds(read_text(scratch / "kgf" / "figures/figure_4_35.csv"), "kgf_per_m2"));
 }
