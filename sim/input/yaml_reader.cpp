@@ -3,6 +3,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -98,9 +99,31 @@ void ValueReader::check_there(std::string_view by) {
     broken_rule(map_.children.front().key, fmt::format("says nothing without {}: give that, too", by));
 }
 
-void ValueReader::check_at_work(std::string_view effect, std::string_view amplitude) {
-  if (!amplitude.empty())
-    require(amplitude,
+void ValueReader::check_law(std::string_view effect, std::span<const plant::Variant> laws,
+                            std::string_view chosen, bool absent) {
+  const auto law = std::ranges::find(laws, chosen, &plant::Variant::name);
+  if (law == laws.end()) return;
+  const auto uses = [&](const plant::Variant& one, std::string_view key) {
+    const auto base = std::ranges::find(laws, one.adds_to, &plant::Variant::name);
+    return one.amplitude == key || (base != laws.end() && !one.adds_to.empty() && base->amplitude == key);
+  };
+  for (const plant::Variant& other : laws) {  // what is only theirs does nothing
+    const Node* node = map_.find(other.amplitude);
+    if (node == nullptr || uses(*law, other.amplitude) ||
+        std::strtod(node->text.c_str(), nullptr) == other.absent)
+      continue;
+    std::string names;
+    for (const plant::Variant& one : laws)
+      if (uses(one, other.amplitude)) names += (names.empty() ? "" : " or ") + std::string(one.name);
+    if (absent && map_.find("variant") == nullptr)
+      return bad(map_,
+                 fmt::format("the key variant is missing: {} is of variant {}", other.amplitude, names));
+    problems_.warning(source_, node->place,
+                      fmt::format("{} = {} does nothing: it is of variant {}, and this is {}",
+                                  other.amplitude, shortened(node->text), names, chosen));
+  }
+  if (absent)
+    require(law->amplitude,
             fmt::format("without it {0} does nothing; `mckibben effects {0}` shows an example", effect));
 }
 

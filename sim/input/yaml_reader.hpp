@@ -95,8 +95,9 @@ class ValueReader {
   bool clean() const { return problems_.errors() == errors_before_; }
   /// Keys of a part that is not there say nothing.
   void check_there(std::string_view by);
-  /// An effect that is absent says so: the value of its key `amplitude` is written.
-  void check_at_work(std::string_view effect, std::string_view amplitude);
+  /// Of an effect: keys of other laws do nothing; one that is absent says so.
+  void check_law(std::string_view effect, std::span<const plant::Variant> laws, std::string_view chosen,
+                 bool absent);
   /// A rule that is broken: shown at the key's value, or at the whole map. Of values that it names and that
   /// are not written there it says what they are, and whose.
   void broken_rule(std::string_view key, std::string_view message);
@@ -254,15 +255,11 @@ class StructReader : public ValueReader {
   }
 };
 
-/// The key without which an effect does nothing, by the law that it has now.
+/// The law that an effect has now.
 template <class Effect>
-std::string_view amplitude_of(const Effect& effect) {
-  for (const plant::Variant& variant : Effect::variants) {
-    if constexpr (requires { effect.variant; })
-      if (variant.name != name_of(effect.variant)) continue;
-    return variant.amplitude;
-  }
-  return {};
+std::string_view law_of(const Effect& effect) {
+  if constexpr (requires { effect.variant; }) return name_of(effect.variant);
+  return Effect::variants.empty() ? std::string_view() : Effect::variants.front().name;
 }
 
 template <Listed T>
@@ -275,7 +272,7 @@ void read_struct(const Source& source, const Node& node, T& into, Problems& prob
   if constexpr (requires { T::there_by; })
     if (into.absent()) reader.check_there(T::there_by);
   if constexpr (requires { T::variants; })
-    if (into.absent() && reader.clean()) reader.check_at_work(T::name, amplitude_of(into));
+    if (reader.clean()) reader.check_law(T::name, T::variants, law_of(into), into.absent());
   if constexpr (Resolved<T>) into.resolve();
   if constexpr (Ruled<T>) {
     const auto report = [&](std::string_view key, std::string_view message) {
