@@ -2,9 +2,8 @@
 #include <concepts>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <plant/geometry.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/domain/renamed.hpp>
 #include <sim/domain/rig_number.hpp>
 
@@ -162,10 +161,9 @@ std::string broken_rule(const plant::Rig& rig) {
 std::string too_heavy(double load_kg, const plant::Rig& rig) {
   const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
   if (rig.pulled_kg(load_kg) <= most_kg) return "";
-  return fmt::format(
-      "the taut threads of this muscle bear {:.3g} kg before they lie along it; a stiffer stop "
-      "(muscle.stop_stiffness, {:g} N/m) or a wider braid_angle bears more",
-      most_kg, rig.muscle.stop_stiffness_N_per_m);
+  return "the taut threads of this muscle bear " + write_number(significant(most_kg, 3)) +
+         " kg before they lie along it; a stiffer stop (muscle.stop_stiffness, " +
+         write_number(rig.muscle.stop_stiffness_N_per_m) + " N/m) or a wider braid_angle bears more";
 }
 
 }  // namespace mckibben::domain

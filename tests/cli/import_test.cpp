@@ -18,7 +18,7 @@ namespace {
 constexpr const char* another_rig =
     "schema: mckibben-rig/1\nmuscle: {rest_length: 180 mm, rest_radius: 6 mm, braid_angle: 23 deg}\n"
     "valve: {zero_pressure: 0 bar, span_pressure: 6 bar, supply_pressure: 7 bar}\n"
-    "encoder: {pulses_per_turn: 100000}\n";
+    "encoder: {pulses_per_turn: 100000, wheel_ratio: 2}\n";
 
 /// A laser's table of that rig, as Excel has it: bench/load_5kg.csv.
 constexpr const char* record =
