@@ -1,9 +1,10 @@
 // The field lists of the plant, walked with the path as a guide; see the header.
 #include <concepts>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 #include <plant/geometry.hpp>
-#include <sim/domain/number.hpp>
 #include <sim/domain/renamed.hpp>
 #include <sim/domain/rig_number.hpp>
 
@@ -161,9 +162,11 @@ std::string broken_rule(const plant::Rig& rig) {
 std::string too_heavy(double load_kg, const plant::Rig& rig) {
   const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
   if (rig.pulled_kg(load_kg) <= most_kg) return "";
-  return "the taut threads of this muscle bear " + write_number(significant(most_kg, 3)) +
-         " kg before they lie along it; a stiffer stop (muscle.stop_stiffness, " +
-         write_number(rig.muscle.stop_stiffness_N_per_m) + " N/m) or a wider braid_angle bears more";
+  std::ostringstream text;
+  text << "the taut threads of this muscle bear " << std::setprecision(3) << most_kg
+       << " kg before they lie along it; a stiffer stop (muscle.stop_stiffness, " << std::setprecision(6)
+       << rig.muscle.stop_stiffness_N_per_m << " N/m) or a wider braid_angle bears more";
+  return text.str();
 }
 
 }  // namespace mckibben::domain
