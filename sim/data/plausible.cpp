@@ -62,10 +62,10 @@ class Plausible {
     for (run_ = 0; run_ < data_.runs.size(); ++run_) {
       map_ = with_our_names(domain::merged(data_.columns, run().columns), data_.rig.command_unit());
       if (run().measured && run().measured->point_s == 0.0) clock(run().measured->time_s);
-      if (!run().measured) command({&command_}, run().current_mA);
       if (run().measured)
         for (const domain::MeasuredColumn& column : run().measured->columns) look_at(column);
       else {
+        command({&command_}, run().current_mA);
         never_moves("contraction", run().contraction_ratio);
         grid("contraction", run().contraction_ratio);
       }

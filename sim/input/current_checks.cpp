@@ -121,8 +121,8 @@ controllers::CurrentRange working_range(const plant::Rig& rig) {
 void follow_valve(controllers::Settings& settings, const Source& source, const Node& node,
                   const plant::Rig& rig, Problems& problems) {
   controllers::follow(settings, working_range(rig));
+  CurrentChecker output(source, node, rig, problems);
   if (const auto* terms = controllers::part_of<controllers::OutputLimits>(settings)) {
-    CurrentChecker output(source, node, rig, problems);
     const bool works = output.ends("lowest_command", *terms->lowest_current_mA, "highest_command",
                                    *terms->highest_current_mA);
     if (const auto* one = controllers::part_of<controllers::RestTerms>(settings); one != nullptr && works)
@@ -130,7 +130,6 @@ void follow_valve(controllers::Settings& settings, const Source& source, const N
   }
   std::visit(
       [&]<class One>(const One& one) {
-        CurrentChecker output(source, node, rig, problems);
         GivenCommands given(node, output);
         if constexpr (requires { one.at(0.0); }) One::fields(one, given);
         if constexpr (std::is_same_v<One, controllers::RecordedCurrent>)

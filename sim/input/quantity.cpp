@@ -17,6 +17,7 @@
 #include <locale.h>  // of POSIX
 #include <udunits2.h>
 
+#include <plant/constants.hpp>
 #include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/utf8.hpp>
@@ -208,11 +209,6 @@ std::string_view usual_unit(std::string_view si_unit) {
   return si_unit;
 }
 
-/// A bare number as an angle: up to half a turn it may be rad.
-bool may_be_rad(double number, std::string_view si_unit) {
-  return si_unit == "rad" && std::abs(number) <= std::numbers::pi;
-}
-
 /// ": for example 5 bar": the number that was written, in the unit that was wanted, if it may be meant; else
 /// what is usual; nothing if neither is known.
 std::string example_for(std::string_view number, std::string_view si_unit, const Usual& usual) {
@@ -220,7 +216,7 @@ std::string example_for(std::string_view number, std::string_view si_unit, const
   const auto text = [](const std::string& example) { return ": for example " + example; };
   if (const auto written = parse_number(number)) {
     double value = *written;
-    const bool rad = may_be_rad(value, si_unit);
+    const bool rad = si_unit == "rad" && std::abs(value) <= std::numbers::pi;  // up to half a turn
     // Where nothing is usual: steps and offsets are of mm, and what is not small of a small unit.
     const bool unknown = usual.value == 0.0 && std::isfinite(usual.highest), large = std::abs(value) >= 1.0;
     const std::string_view unit = rad                                   ? si_unit
@@ -232,7 +228,7 @@ std::string example_for(std::string_view number, std::string_view si_unit, const
     if (value >= usual.lowest && value <= usual.highest &&
         (usual.value == 0.0 || (ratio > 1.0 / alike && ratio < alike)))
       return text(fmt::format("{} {}", number, unit) +
-                  (rad ? fmt::format(", which is {:.3g} deg", value * 180.0 / std::numbers::pi) : ""));
+                  (rad ? fmt::format(", which is {:.3g} deg", value / plant::degree_rad) : ""));
   }
   return usual.value == 0.0 ? "" : text(usual_quantity(usual.value, si_unit));
 }
@@ -366,7 +362,7 @@ void convert_units(std::span<double> values, std::string_view unit, std::string_
 
 std::string write_quantity(double value, std::string_view si_unit) {
   if (si_unit == "rad") {  // people think in degrees: where they read back to the same bits, they are written
-    const double degrees = std::round(value / (std::numbers::pi / 180.0) * 1e9) / 1e9;
+    const double degrees = std::round(value / plant::degree_rad * 1e9) / 1e9;
     std::string text = write_number(degrees) + " deg";
     if (read_quantity(text, si_unit) == value) return text;
   }

@@ -45,8 +45,8 @@ def one_of(several, random):
 
 
 def drawn_rig(random):
-    """The thesis's rig of one muscle, but threads with half to twice the friction, a muscle up to a tenth thinner or thicker, a valve
-    up to a third slower or quicker."""
+    """The thesis's rig of one muscle, but threads with half to twice the friction, a muscle up to a tenth thinner or
+    thicker, a valve up to a third slower or quicker."""
     def factor(most):
         return float(most ** random.uniform(-1.0, 1.0))
 
