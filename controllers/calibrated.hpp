@@ -20,7 +20,7 @@ struct CalibrationTerms {
 
   static void fields(auto& self, auto& visit) {
     visit.required("calibration", self.calibration,
-                   "what `calibrate` wrote, or `thesis`: that of the thesis's rig");
+                   "what `calibrate` wrote for this rig; of the thesis's rig itself: `thesis`");
     visit("assumed_load", self.assumed_load_kg, "kg", 0.01, 500.0, "load of its model; estimated if absent");
     visit("extrapolate_load", self.extrapolate_load,
           "whether a load, and a weighing speed, outside the calibrated range are allowed");

@@ -75,7 +75,10 @@ controllers::Calibration read_calibration(const std::filesystem::path& path, std
 std::string wrong_rig(const controllers::Calibration& calibration, const plant::Rig& rig, bool weighs) {
   const std::string made = calibration.command_unit.value_or("mA");
   if (const std::string_view taken = name_of(rig.command_unit()); made != taken)
-    return fmt::format("made with a rig that is commanded in {}, and this one is in {}", made, taken);
+    return fmt::format(
+        "made with a rig that is commanded in {}, and this one is in {}; calibrate with this rig "
+        "(calibrate --rig)",
+        made, taken);
   const bool counted = calibration.tube_pull.has_value();
   if (weighs && counted == rig.effects.get<plant::BladderElasticity>().absent())
     return fmt::format(

@@ -154,6 +154,7 @@ Campaign read_campaign(Source source) {
   if (begin_file(file, campaign_schema, problems)) {
     read_struct(file.source, file.root, campaign, problems, also_allowed);
     check_keys(file, campaign.rig.pair() != nullptr, problems);
+    check_gauge_error(file, campaign.rig, problems);
     read_variation(file, campaign, problems);
   }
   if (problems.errors() == 0) {

@@ -87,6 +87,22 @@ void check_different(const std::vector<double>& loads_kg, const Node& nodes, con
                      fmt::format("loads: {} stands in the list already", nodes.children[i].text));
 }
 
+void check_has_gauge(const Source& source, const Node& node, std::string_view what, const plant::Rig& rig,
+                     Problems& problems) {
+  if (rig.sensors.of(plant::Sensed::muscle_pressure) == nullptr)
+    problems.warning(source, node.place,
+                     fmt::format("{} has no effect: the rig has no gauge (sensors: [{{signal: "
+                                 "muscle_pressure, kind: gauge}}])",
+                                 what));
+}
+
+void check_gauge_error(const YamlFile& file, const plant::Rig& rig, Problems& problems) {
+  const auto errs = [](const plant::Rig& one) { return !one.effects.get<plant::GaugeError>().absent(); };
+  const Node* const node = file.root.find("rig");
+  if (errs(rig) || (rig.pair() != nullptr && errs(plant::opposite_rig(rig))))
+    check_has_gauge(file.source, node == nullptr ? file.root : *node, "effects.gauge_error", rig, problems);
+}
+
 /// Of a usual load: g are written for kg.
 constexpr double hardly_anything = 1.0 / 200.0;
 

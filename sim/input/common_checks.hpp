@@ -36,6 +36,11 @@ double usual_load_kg(const plant::Rig& rig);
 void check_different(const std::vector<double>& loads_kg, const Node& nodes, const Source& source,
                      Problems& problems);
 
+/// What is of a gauge shows on a rig that has one.
+void check_has_gauge(const Source& source, const Node& node, std::string_view what, const plant::Rig& rig,
+                     Problems& problems);
+void check_gauge_error(const YamlFile& file, const plant::Rig& rig, Problems& problems);
+
 /// The key `loads` of a file must hold at least one load, none twice, none that the rig's load offset takes
 /// away, and none that is too heavy.
 void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, const plant::Rig& rig,

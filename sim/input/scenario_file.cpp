@@ -67,16 +67,15 @@ class ScenarioChecker {
   }
 
   void check_noise() {
-    if (scenario_.noise.gauge_Pa > 0.0 && scenario_.rig.sensors.of(plant::Sensed::muscle_pressure) == nullptr)
-      problems_.warning(source_, list("noise").place,
-                        "noise.gauge has no effect: the rig has no gauge (sensors: [{signal: "
-                        "muscle_pressure, kind: gauge}])");
+    if (scenario_.noise.gauge_Pa > 0.0)
+      check_has_gauge(source_, list("noise"), "noise.gauge", scenario_.rig, problems_);
   }
 
   void check_rig() {
     const Node* rig = root_.find("rig");
     const Place place = rig != nullptr ? rig->place : root_.place;
     check_dac(scenario_.rig, source_, place, problems_);
+    check_gauge_error(file_, scenario_.rig, problems_);
     if (const std::string keys = unknown_keys(scenario_.rig); !keys.empty())
       problems_.warning(
           source_, place,

@@ -10,18 +10,19 @@ const playing = {
   frames: 0,
   turn: 0
 };
-let timed = [], loops = [];
+let timed = [], loops = [], keptByHand = false;
 
 /** How long loops are looked back for: a sweep's period, or some seconds. */
 const lookBack = () => live.state?.sweep ? 1.02 * live.state.sweep.period : 10;
 
 /**
- * The loops of now stay, in grey; what follows is another one. `whole`: only if they have gone round, so that
- * several switches in a row leave what was before them.
+ * The loops of now stay, in grey; what follows is another one. Not `byHand`: only if they have gone round, so
+ * that several switches in a row leave what was before them, and in place of none that were kept by hand.
  */
-function keepLoops(whole) {
-  if (!whole || samples.newest() - live.began > 0.8 * lookBack())
+function keepLoops(byHand) {
+  if (byHand || (!keptByHand && samples.newest() - live.began > 0.8 * lookBack()))
     for (const loop of loops) loop.ghost = loop.values ?? [[], []];
+  keptByHand ||= byHand;
   live.began = samples.newest();
 }
 
@@ -37,7 +38,7 @@ function makePlots() {
 function hear(news) {
   if (news.samples) {
     if (samples.add(news.from, news.samples)) {
-      keepLoops(true);
+      keepLoops(false);
       live.began = live.recorded = 0;
     }
     const offset = samples.newest() - behind - performance.now() / 1000;
@@ -75,9 +76,10 @@ function frame() {
 prepareControls();
 makePlots();
 byId('rig-caption').textContent = `The rig, ${drawing.scale}.`;
-byId('keep').addEventListener('click', () => keepLoops(false));
+byId('keep').addEventListener('click', () => keepLoops(true));
 byId('forget').addEventListener('click', () => {
   for (const loop of loops) loop.ghost = [[], []];
+  keptByHand = false;
 });
 for (const choice of document.querySelectorAll('.unit-choice input'))
   choice.addEventListener('change', makePlots);

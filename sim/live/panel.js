@@ -205,7 +205,7 @@ const rigOf = (state) =>
 function showState(state) {
   const before = live.state;
   live.state = state;
-  if (before && rigOf(before) !== rigOf(state)) keepLoops(true);
+  if (before && rigOf(before) !== rigOf(state)) keepLoops(false);
   if (before && JSON.stringify(before.effects) !== JSON.stringify(state.effects))
     live.began = samples.newest();
   showControls(state);

@@ -41,8 +41,12 @@ std::vector<diagnose::Candidate> by_side(const diagnose::Candidate& candidate, c
   return {one, two};
 }
 
-/// Whether a pair or a lever may have it: they have no guide of a load, and both gases are of one kind.
+/// Whether the rig may have it and shows it: a gauge error is of a gauge; a pair and a lever have no guide of
+/// a load, and both gases are of one kind.
 bool is_of(const plant::Rig& rig, const diagnose::Candidate& candidate) {
+  if (candidate.effect == plant::GaugeError::name &&
+      rig.sensors.of(plant::Sensed::muscle_pressure) == nullptr)
+    return false;
   if (!rig.has_angle()) return true;
   plant::Rig with = candidate.chosen(rig);
   candidate.put(with, candidate.absent + candidate.typical);

@@ -103,6 +103,7 @@ TEST(RunWarnings, OfTheReaderAreInTheResultsToo) {
   const Scratch scratch;
   write_text(scratch / "w.yaml",
              "schema: mckibben-scenario/1\nloads: [10 kg]\nduration: 0.1 s\nnoise: {gauge: 1 mbar}\n"
+             "rig: {base: thesis, effects: {gauge_error: {gain: 0.1, variant: gain}}}\n"
              "target: {kind: minimum_jerk, start: 0.05, moves: []}\n"
              "controllers: [{kind: triangle_current, low: 5 mA, high: 6 mA, period: 1 s}]\n");
   const Said said = mckibben("run w.yaml --json", scratch);
@@ -111,6 +112,8 @@ TEST(RunWarnings, OfTheReaderAreInTheResultsToo) {
   EXPECT_EQ(Json::parse(said.out).at("warnings").at(0),
             "w.yaml:4:8: noise.gauge has no effect: the rig has no gauge (sensors: [{signal: "
             "muscle_pressure, kind: gauge}])");
+  EXPECT_TRUE(
+      holds(said.err, "w.yaml:5:6: warning: effects.gauge_error has no effect: the rig has no gauge"));
   EXPECT_TRUE(holds(read_text(scratch / "out/w/report.html"), "w.yaml:4:8: noise.gauge has no"));
 }
 

@@ -109,12 +109,15 @@ TEST(LiveSession, AnotherLoadBeginsWhereTheFirstOneWas) {
 }
 
 TEST(LiveSession, AnotherLawOfTheSameEffectTakesItsPlace) {
-  Session session(plant::Rig{}, load_kg);
+  plant::Rig rig;
+  rig.sensors.push_back({.signal = plant::Sensed::muscle_pressure, .kind = plant::SensorKind::gauge});
+  Session session(rig, load_kg);
   const auto on = [&](const char* name) { return session.switches().find(name)->on; };
   ASSERT_EQ(session.set_effect("gauge_error offset", true, 1e4, 0.0), "");
   ASSERT_EQ(session.set_effect("gauge_error gain", true, 0.03, 0.0), "");
   EXPECT_FALSE(on("gauge_error offset"));
   EXPECT_TRUE(on("gauge_error gain"));
+  EXPECT_EQ(Session(plant::Rig{}, load_kg).switches().find("gauge_error gain"), nullptr);  // no gauge
 }
 
 TEST(LiveSession, EffectsOfTheFileAreOnAtTheirSizes) {
