@@ -9,7 +9,6 @@
 
 #include <sim/identify/decisive.hpp>
 #include <sim/identify/model.hpp>
-#include <sim/identify/quadratic.hpp>
 
 namespace mckibben::identify {
 
@@ -40,7 +39,7 @@ void Model::descend(const Effort& effort) {
     fit_error(round == 0 ? std::vector{1.0, 0.5} : std::vector{0.5},
               far ? std::vector<std::size_t>{Error::model_sd} : std::vector<std::size_t>{});
     const Grams now = error.grams(residual(), slopes);
-    Quadratic quadratic(now.sum(), variance().cwiseInverse(), dictionary.vector(point));
+    Quadratic quadratic = this->quadratic(now);
     const double promised = quadratic.promised(), before = cost(read, point);
     if (far && promised < 1.0) {
       far = false;
@@ -101,8 +100,7 @@ void Model::descend(const Effort& effort) {
       else if (gained > 0.5 * wanted || quadratic.longest() > 1.01 * reach)
         reach = 3.0 * std::max(moved.norm(), 0.3 * reach);
       if (gained < 0.3 * wanted) break;
-      const Grams there = error.grams(residual(), slopes);
-      quadratic = Quadratic(there.sum(), variance().cwiseInverse(), dictionary.vector(point));
+      quadratic = this->quadratic(error.grams(residual(), slopes));
       if (quadratic.promised() < effort.enough) break;
     }
     if (before - here < effort.enough) {

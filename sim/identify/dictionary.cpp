@@ -1,6 +1,7 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -248,19 +249,39 @@ Added Dictionary::clipped(Added added) const {
   return added;
 }
 
-Point Dictionary::moved(const Point& point, const Eigen::VectorXd& v) const {
+Ends Dictionary::ends(const Point& point) const {
+  const auto list = coordinates(point);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto count = static_cast<Eigen::Index>(list.size());
+  Ends ends{Eigen::VectorXd::Constant(count, -infinity), Eigen::VectorXd::Constant(count, infinity)};
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Coordinate& one = list[static_cast<std::size_t>(j)];
+    if (one.kind == Kind::parameter) {
+      const Free& p = parameters[one.of];
+      ends.lowest[j] = (p.lowest - p.origin) / p.scale;
+      ends.highest[j] = (p.highest - p.origin) / p.scale;
+    } else if (one.kind == Kind::size || one.kind == Kind::shape) {
+      const Entry& entry = entries[point.effects[one.of].entry];
+      const bool size = one.kind == Kind::size;
+      ends.lowest[j] = size ? entry.lowest : -entry.shapes[one.which].furthest;
+      ends.highest[j] = size ? entry.highest : entry.shapes[one.which].furthest;
+    }
+  }
+  return ends;
+}
+
+Point Dictionary::moved(const Point& point, const Eigen::VectorXd& to) const {
   Point p = point;
   const auto list = coordinates(point);
+  const Ends ranges = ends(point);
+  const Eigen::VectorXd v = to.cwiseMax(ranges.lowest).cwiseMin(ranges.highest);
   for (std::size_t j = 0; j < list.size(); ++j) {
     const std::size_t of = list[j].of;
     const double value = v[static_cast<Eigen::Index>(j)];
     switch (list[j].kind) {
-      case Kind::parameter: {
-        const Free& par = parameters[of];
-        p.z[static_cast<Eigen::Index>(of)] =
-            std::clamp(value, (par.lowest - par.origin) / par.scale, (par.highest - par.origin) / par.scale);
+      case Kind::parameter:
+        p.z[static_cast<Eigen::Index>(of)] = value;
         break;
-      }
       case Kind::size:
         p.effects[of].size = value;
         break;
@@ -275,7 +296,6 @@ Point Dictionary::moved(const Point& point, const Eigen::VectorXd& v) const {
         break;
     }
   }
-  for (Added& added : p.effects) added = clipped(added);
   return p;
 }
 

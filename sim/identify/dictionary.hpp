@@ -141,6 +141,11 @@ struct Coordinate {
   std::size_t which = 0;  ///< of its shapes
 };
 
+/// Of the ranges of a point's coordinates.
+struct Ends {
+  Eigen::VectorXd lowest, highest;
+};
+
 class Dictionary {
  public:
   /// `written_coarsely`: in steps of so much, which may have been rounded or cut; 0: they are the sensor's.
@@ -148,6 +153,8 @@ class Dictionary {
 
   std::vector<Coordinate> coordinates(const Point& point) const;
   Eigen::VectorXd vector(const Point& point) const;
+  Ends ends(const Point& point) const;
+  /// To the vector, or where it leaves a range to the end of that.
   Point moved(const Point& point, const Eigen::VectorXd& vector) const;
   Point described() const { return {}; }
   Point nominal() const { return {.z = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))}; }

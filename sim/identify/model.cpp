@@ -8,7 +8,6 @@
 
 #include <sim/identify/decisive.hpp>
 #include <sim/identify/model.hpp>
-#include <sim/identify/quadratic.hpp>
 
 namespace mckibben::identify {
 
@@ -143,16 +142,16 @@ void Model::look() {
 }
 
 Model::Here Model::here() const {
-  const Eigen::VectorXd left = residual(), of_prior = variance(), v = problem->dictionary.vector(point);
+  const Eigen::VectorXd left = residual(), of_prior = variance();
   const Error begun = error.begun();
   const auto laplace = [&](const Error& one, bool stepped) {
     const Grams at = one.grams(left, slopes);
     const Eigen::MatrixXd gram = at.sum();
-    const Quadratic quadratic(gram, of_prior.cwiseInverse(), v);
+    const Eigen::LLT<Eigen::MatrixXd> low(curvature(gram, of_prior.cwiseInverse()));
     return log_prior() +
            0.5 * static_cast<double>(slopes.cols() - left.size()) * std::log(2.0 * std::numbers::pi) -
-           0.5 * (at.log_det() + gram(0, 0) + quadratic.values.array().log().sum()) +
-           (stepped ? quadratic.promised() : 0.0);
+           0.5 * (at.log_det() + gram(0, 0)) - low.matrixLLT().diagonal().array().log().sum() +
+           (stepped ? quadratic(at).promised() : 0.0);
   };
   const Error as_it_stands =
       begun.fitted(left, Eigen::MatrixXd(left.size(), 0), Eigen::VectorXd(), {1.0, 0.5}).first;
@@ -172,6 +171,11 @@ double Model::cost(const Eigen::VectorXd& would_read, const Point& at) const {
   return 0.5 * grams_there.sum()(0, 0) - log_prior_of(problem->dictionary, at, term_N);
 }
 
+Quadratic Model::quadratic(const Grams& at) const {
+  const Dictionary& dictionary = problem->dictionary;
+  return {at.sum(), variance().cwiseInverse(), dictionary.vector(point), dictionary.ends(point)};
+}
+
 double Model::evidence() {
   if (!read.allFinite()) return score = log_evidence = -std::numeric_limits<double>::infinity();
   if (!point.has_lines()) {
@@ -189,11 +193,10 @@ double Model::evidence() {
   const Index k = v.size();
   const Eigen::LLT<Eigen::MatrixXd> low(curvature(gram, weight));
   covariance = low.solve(Eigen::MatrixXd::Identity(k, k));
-  const Eigen::VectorXd pull = gram.col(0).tail(k) - weight.cwiseProduct(v);
   double value = log_prior() + error.log_scales() -
                  0.5 * (static_cast<double>(read.size()) * std::log(2.0 * std::numbers::pi) +
                         grams.log_det() + gram(0, 0)) +
-                 0.5 * pull.dot(covariance * pull) +
+                 (k > 0 ? quadratic(grams).promised() : 0.0) +
                  0.5 * static_cast<double>(k) * std::log(2.0 * std::numbers::pi);
   if (k > 0) value -= low.matrixLLT().diagonal().array().log().sum();
   Index j = 0;

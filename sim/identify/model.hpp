@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <sim/identify/error.hpp>
+#include <sim/identify/quadratic.hpp>
 
 namespace mckibben::identify {
 
@@ -83,6 +84,8 @@ class Model {
 
  private:
   double cost(const Eigen::VectorXd& would_read, const Point& at) const;
+  /// As the error sees it.
+  Quadratic quadratic(const Grams& at) const;
   /// Simulates numbers of runs, which are not straight, where they are most probable; whether any has moved.
   bool place();
   /// What the loads of all runs have in common is the rig's offset as well: the readings are the same, and

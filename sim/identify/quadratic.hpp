@@ -1,11 +1,16 @@
-// The quadratic that a fit stands on, in the axes of its curvature, and the steps that it proposes.
+// The quadratic that a fit stands on, in the axes of its curvature, and the steps that it proposes. What is
+// at an end of its range and would leave it is held there: the rest would bend to a step that is not made
+// (Bertsekas, SIAM J. Control Optim. 20 (1982) 221-246).
 #pragma once
 
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+
+#include <sim/identify/dictionary.hpp>
 
 namespace mckibben::identify {
 
@@ -24,12 +29,16 @@ struct Quadratic {
   Eigen::MatrixXd axes;
   Eigen::VectorXd pull;  ///< along the axes
 
-  Quadratic(const Eigen::MatrixXd& gram, Eigen::VectorXd prior_weight, const Eigen::VectorXd& at)
+  Quadratic(const Eigen::MatrixXd& gram, Eigen::VectorXd prior_weight, const Eigen::VectorXd& at,
+            const Ends& ends)
       : weight(std::move(prior_weight)) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(curvature(gram, weight));
+    Eigen::MatrixXd curved = curvature(gram, weight);
+    Eigen::VectorXd slope = gram.col(0).tail(at.size()) - weight.cwiseProduct(at);
+    hold(curved, slope, at, ends);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(curved);
     values = solver.eigenvalues().cwiseMax(1e-12);
     axes = solver.eigenvectors();
-    pull = axes.transpose() * (gram.col(0).tail(at.size()) - weight.cwiseProduct(at));
+    pull = axes.transpose() * slope;
   }
   double promised() const { return 0.5 * pull.cwiseAbs2().cwiseQuotient(values).sum(); }
   double longest() const { return pull.cwiseQuotient(values).norm(); }
@@ -49,6 +58,26 @@ struct Quadratic {
       (damped(middle).norm() > length ? low : high) = middle;
     }
     return axes * damped(high);
+  }
+
+ private:
+  /// First what the slope drives out, then what the step would.
+  static void hold(Eigen::MatrixXd& curved, Eigen::VectorXd& slope, const Eigen::VectorXd& at,
+                   const Ends& ends) {
+    Eigen::VectorXd way = slope;
+    for (bool more = true; more; way = curved.llt().solve(slope)) {
+      more = false;
+      for (Eigen::Index i = 0; i < at.size(); ++i) {
+        if (!((way[i] < 0.0 && at[i] <= ends.lowest[i]) || (way[i] > 0.0 && at[i] >= ends.highest[i])))
+          continue;
+        const double own = curved(i, i);
+        curved.row(i).setZero();
+        curved.col(i).setZero();
+        curved(i, i) = own;
+        slope[i] = 0.0;
+        more = true;
+      }
+    }
   }
 };
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/identify/error.hpp>
+#include <sim/identify/quadratic.hpp>
 
 namespace mckibben::identify {
 namespace {
@@ -150,6 +151,20 @@ TEST(Rows, KnowTheStepInWhichReadingsWereWritten) {
   const Rows coarse(made.data, made.masked, {0, 1});
   EXPECT_LT(count, 1e-3);
   EXPECT_NEAR(coarse.count, 3e-3, 1e-6);
+}
+
+TEST(Quadratic, HoldsAtTheEndOfItsRangeWhatWouldLeaveIt) {
+  const VectorXd at = VectorXd::Zero(2), weight = VectorXd::Constant(2, 1.0);
+  const Ends below{VectorXd::Constant(2, -9.0), VectorXd::Constant(2, 9.0)},
+      at_end{Eigen::Vector2d(0.0, -9.0), VectorXd::Constant(2, 9.0)};
+  for (const double pull : {-10.0, 0.1}) {  // the slope drives it out; only the step would
+    MatrixXd gram(3, 3);
+    gram << 0.0, pull, 1.0, pull, 3.0, 3.0, 1.0, 3.0, 3.0;
+    EXPECT_LT(Quadratic(gram, weight, at, below).step(100.0)[0], 0.0);
+    const Quadratic held(gram, weight, at, at_end);
+    EXPECT_TRUE(held.step(100.0).isApprox(Eigen::Vector2d(0.0, 0.25), 1e-12)) << held.step(100.0);
+    EXPECT_NEAR(held.promised(), 0.125, 1e-12);
+  }
 }
 
 }  // namespace
