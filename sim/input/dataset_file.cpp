@@ -13,6 +13,7 @@
 #include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/file_names.hpp>
+#include <sim/input/folders.hpp>
 #include <sim/input/run_file.hpp>
 #include <sim/input/stamped_run.hpp>
 #include <sim/input/thinned.hpp>
@@ -120,7 +121,10 @@ std::vector<std::string> remarks_of(const std::vector<Problem>& notes) {
 
 Dataset read_dataset(const fs::path& path) {
   std::error_code ignored;
-  const fs::path file = fs::is_directory(path, ignored) ? path / "dataset.yaml" : path;
+  const bool folder = fs::is_directory(path, ignored);
+  const fs::path file = folder ? path / "dataset.yaml" : path;
+  if (folder && !fs::exists(file, ignored))
+    throw MissingInput(path.string() + ": no dataset.yaml is in this folder" + how_to_import(path));
   return read_dataset(Source::load(file, largest_yaml_bytes));
 }
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <utility>
 
+#include <sim/input/folders.hpp>
 #include <sim/input/hash.hpp>
 #include <sim/input/source.hpp>
 #include <sim/input/utf8.hpp>
@@ -46,7 +47,7 @@ void Source::find_lines() {
 Source Source::load(const std::filesystem::path& path, std::size_t largest_bytes) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
-    throw MissingInput(path.string() + ": is a folder, not a file");
+    throw MissingInput(path.string() + ": is a folder, not a file" + what_to_give(path));
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
     throw MissingInput(shortened(path.string(), longest_path) +

@@ -8,6 +8,8 @@
 #include <set>
 #include <string>
 
+#include <sim/input/folders.hpp>
+
 namespace mckibben::output {
 
 /// Paths of files inside a folder, relative to it, with /.
@@ -15,7 +17,7 @@ using FileNames = std::set<std::string>;
 /// The same, with each file's digest.
 using Digests = std::map<std::string, std::string>;
 
-inline constexpr const char* manifest_name = ".mckibben-files";
+using input::manifest_name;
 
 /// The digest of a file, however large; empty if it is none that can be read.
 std::string digest_of(const std::filesystem::path& path);

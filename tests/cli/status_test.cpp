@@ -210,6 +210,25 @@ TEST_F(Program, CheckTellsTheKindsApart) {
   EXPECT_EQ(document.at("files").at(1).at("problems").at(0).at("line"), 1);
 }
 
+TEST_F(Program, AResultsFolderSaysWhatToGiveInItsPlace) {
+  ASSERT_EQ(run("run quick.yaml --out r").status, 0);
+  const auto simulated = run("run r");
+  EXPECT_EQ(simulated.status, 66);
+  EXPECT_TRUE(holds(simulated.err,
+                    "r: is a folder, not a file; written by `mckibben run quick.yaml`: give quick.yaml\n"));
+  for (const char* verb : {"diagnose", "replay", "check", "calibrate"}) {
+    const auto said = run(std::string(verb) + " r");
+    EXPECT_EQ(said.status, 66) << verb;
+    EXPECT_TRUE(holds(said.err,
+                      "r: no dataset.yaml is in this folder; written by `mckibben run quick.yaml`; "
+                      "of its tables one is made by: mckibben import r/*.csv\n"))
+        << verb;
+  }
+  std::filesystem::create_directory(scratch / "mine");
+  write_text(scratch / "mine/rig.yaml", "schema: mckibben-rig/1\n");
+  EXPECT_TRUE(holds(run("live mine").err, "mine: is a folder, not a file; in it: mine/rig.yaml\n"));
+}
+
 TEST_F(Program, ShippedThesisRigIsTheBuiltInOne) {
   const auto said = run("schema rig --format yaml");
   EXPECT_EQ(said.status, 0);
