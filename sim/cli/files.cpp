@@ -41,6 +41,7 @@ constexpr std::string_view known_schemas[] = {
 struct Looked {
   std::string at;
   std::vector<std::string> diagnose{};
+  std::string base{};  ///< what the rig takes over from it
 };
 
 /// Reads a data set and looks at what it says; adds warnings. Throws what is wrong with it.
@@ -57,7 +58,8 @@ Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& wa
   };
   say(data::implausible(data));
   if (std::string why = input::why_unfit(domain::Purpose::judging, data); !why.empty())
-    return {fmt::format("{} runs read; none simulated", data.runs.size()), {"cannot take it yet: " + why}};
+    return {
+        fmt::format("{} runs read; none simulated", data.runs.size()), {"cannot take it yet: " + why}, ""};
   run::Look look = run::look(data);
   Looked looked{fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
                             data.runs.size())};
@@ -66,6 +68,7 @@ Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& wa
     return data::only_limits_diagnosis(one);
   });
   say(look.findings);
+  looked.base = input::taken_over(input::load_yaml(data.path), data.rig);
   return looked;
 }
 
@@ -79,7 +82,8 @@ Looked read_any(const std::filesystem::path& path, std::vector<Problem>& warning
   const std::string kind = schema == nullptr ? "" : schema->text.substr(0, schema->text.find('/'));
   if (kind == "mckibben-rig") {
     std::vector<domain::InputFile> inputs;
-    input::read_rig(path.string(), inputs, &warnings);
+    const plant::Rig rig = input::read_rig(path.string(), inputs, &warnings);
+    return {"", {}, input::taken_over(file, rig)};
   } else if (kind == "mckibben-dataset") {
     return read_measured(path, warnings);
   } else if (kind == "mckibben-campaign") {
@@ -183,10 +187,13 @@ int check_files(const CheckOptions& options) {
     }
     if (!looked.at.empty()) entry["looked_at"] = looked.at;
     if (!looked.diagnose.empty()) entry["diagnose"] = looked.diagnose;
+    if (!looked.base.empty()) entry["base"] = looked.base;
     findings.push_back(std::move(entry));
     if (file_status != done || options.json) continue;
     print(fmt::format("{}: ok{}\n", path, looked.at.empty() ? "" : fmt::format(" ({})", looked.at)));
     for (const std::string& why : looked.diagnose) print(fmt::format("  diagnose: {}\n", why));
+    if (!looked.base.empty())
+      print(fmt::format("  taken over from the base {}; write yours, or ± unknown\n", looked.base));
   }
   const std::string document = Json{{"schema", "mckibben-check/1"}, {"files", findings}}.dump(2) + "\n";
   std::vector<domain::InputFile> read;

@@ -4,12 +4,15 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <plant/geometry.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/domain/renamed.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/muscles.hpp>
 #include <sim/input/quantity.hpp>
@@ -245,6 +248,42 @@ void read_named(const Source& source, const Node& node, Rig& into, Problems& pro
     problems.error(source, node.place,
                    fmt::format("rig must be a name, a path or a map of changes, not {}", node.kind_name()));
   into = with_stops(std::move(into));
+}
+
+namespace {
+
+/// Adds the keys that rig files write; returns the shipped rig beneath them.
+std::string add_written(const Source& source, const Node& node, std::set<std::string>& keys) {
+  if (node.kind != Node::Kind::map) {
+    if (is_shipped(node.text)) return node.text;
+    const YamlFile file = load_yaml((source.folder() / node.text).lexically_normal());
+    return add_written(file.source, file.root, keys);
+  }
+  for (const Node& part : node.children)
+    for (const Node& child : part.children)
+      keys.insert(part.key + '.' + std::string(domain::name_today(child.key)));
+  const Node* base = node.find("base");
+  return base == nullptr ? std::string(shipped.front()) : add_written(source, *base, keys);
+}
+
+}  // namespace
+
+std::string taken_over(const YamlFile& file, const Rig& rig) {
+  const Node* named = file.root.find("rig");
+  const Node& root = named != nullptr ? *named : file.root;
+  std::set<std::string> written;
+  const std::string base = add_written(file.source, root, written);
+  std::vector<std::string> unlike;
+  for (const auto& [key, deviation] : shipped_rig("home_made").spreads) unlike.push_back(key);
+  unlike.emplace_back("valve.conductance");
+  if (std::ranges::none_of(
+          unlike, [&](const auto& key) { return key.starts_with("muscle.") && written.contains(key); }))
+    return "";
+  std::erase_if(unlike, [&](const std::string& key) {
+    return written.contains(key) || rig.spreads.contains(key) ||
+           (rig.valve.seals() && !key.starts_with("muscle.") && !key.starts_with("friction."));
+  });
+  return unlike.empty() ? "" : fmt::format("{}: {}", base, fmt::join(unlike, ", "));
 }
 
 Rig read_base(const Source& source, const Node& node) {

@@ -38,6 +38,11 @@ Json rig_json(const Rig& rig);
 /// a path relative to the folder of `source`, or a map of changes.
 void read_named(const Source& source, const Node& node, Rig& into, Problems& problems);
 
+/// What a muscle of the user's own takes from its base without `±`, of what no two muscles share: "thesis:
+/// muscle.rest_radius, valve.conductance". `file`: of the rig, or of the data set that names it. Empty where
+/// the muscle's size is the base's, or nothing is taken over.
+std::string taken_over(const YamlFile& file, const Rig& rig);
+
 /// The rig over which that writes: the base of a map or of a file; a shipped rig itself.
 Rig read_base(const Source& source, const Node& node);
 

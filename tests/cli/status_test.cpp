@@ -202,7 +202,14 @@ TEST_F(Program, AFailedRunLeavesEarlierResultsAlone) {
 TEST_F(Program, CheckTellsTheKindsApart) {
   write_text(scratch / "rig.yaml", "schema: mckibben-rig/1\nmuscle: {rest_length: 250 mm}\n");
   write_text(scratch / "odd.yaml", "schema: mckibben-kitchen/1\n");
-  EXPECT_EQ(run("check quick.yaml rig.yaml").out, "quick.yaml: ok\nrig.yaml: ok\n");
+  EXPECT_EQ(run("check quick.yaml rig.yaml").out,
+            "quick.yaml: ok\nrig.yaml: ok\n  taken over from the base thesis: friction.scale, "
+            "hose.conductance, muscle.braid_angle, muscle.dead_volume, muscle.end_correction, "
+            "muscle.rest_radius, valve.conductance; write yours, or ± unknown\n");
+  write_text(scratch / "open.yaml",
+             "schema: mckibben-rig/1\nbase: home_made\nmuscle: {rest_length: 250 mm}\n"
+             "valve: {conductance: 4e-9 m3/(s.Pa)}\n");
+  EXPECT_EQ(run("check open.yaml").out, "open.yaml: ok\n") << "the base says that they are unknown";
   const auto said = run("check rig.yaml odd.yaml --json");
   EXPECT_EQ(said.status, 65);
   const auto document = input::Json::parse(said.out);
