@@ -267,6 +267,10 @@ class Columns {
     }
     if (!unit || unit->name != divided_twice)
       what = mend(what, unit ? line_in_unit(quantity.key, meant) : line_of(quantity.key, meant));
+    if (unit && quantity.key == "contraction" && divided_by_length(quantity.place) &&
+        divided_by_length(meant))
+      what +=
+          fmt::format(", or correct the rig's rest_length, {:.4g} mm", 1e3 * data_.rig.muscle.rest_length_m);
     if (opposite && data_.rig.pair() != nullptr && quantity.key == "angle")
       what += ", or exchange muscle 1 and muscle 2";
     const double seen = quantity.by_mean ? mean(rows.measured)

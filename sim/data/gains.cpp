@@ -8,6 +8,7 @@
 
 #include <plant/geometry.hpp>
 #include <sim/data/gains.hpp>
+#include <sim/data/ranges.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/domain/number.hpp>
@@ -41,14 +42,16 @@ std::optional<Finding> halved_or_doubled(const Compared& contraction, ColumnPlac
       continue;
     const auto model = [&](std::size_t k) { return contraction.model[k]; };
     if (!(share_left(contraction, factor, 0.0, model) <= of_gains.halved_share)) continue;
+    const char* const rig = divided_by_length(place)
+                                ? "pulses_per_turn of its encoder or rest_length of the rig"
+                                : "pulses_per_turn of the rig's encoder";
     place.factor /= factor;
     return Finding{.quantity = "contraction",
                    .runs = contraction.runs,
                    .message = fmt::format(
                        "contraction is {:.2f} times what pressure and load say, everywhere: are counts "
-                       "per turn {}, as by a decoder that sees other edges? Then columns: {{{}}}, or "
-                       "pulses_per_turn of the rig's encoder",
-                       line.slope, factor < 1.0 ? "halved" : "doubled", line_of("contraction", place)),
+                       "per turn {}, as by a decoder that sees other edges? Then columns: {{{}}}, or {}",
+                       line.slope, factor < 1.0 ? "halved" : "doubled", line_of("contraction", place), rig),
                    .severity = Severity::doubtful};
   }
   return std::nullopt;

@@ -141,11 +141,15 @@ class Ranges {
           "columns: {{{}}}?",
           meant.unit == "1" ? "contraction ratio" : meant.unit, line_of("contraction", meant));
     } else {
+      const std::string rig = divided_by_length(meant)
+                                  ? fmt::format(". Or is the rig's rest_length wrong, {:.4g} mm?",
+                                                1e3 * rig_.muscle.rest_length_m)
+                                  : "";
       meant.unit = std::string(meant.unit == "mm" ? "count" : "mm");
       hint = fmt::format(
           "is it in another unit (\"%\", mm, deg, count), or its zero elsewhere? Then write so, "
-          "as in columns: {{{}}}",
-          line_in_unit("contraction", meant));
+          "as in columns: {{{}}}{}",
+          line_in_unit("contraction", meant), rig);
     }
     look(lowest_ratio, highest_ratio, "what a muscle can do", hint);
   }
@@ -217,6 +221,10 @@ ColumnMap with_our_names(ColumnMap map, plant::CommandUnit commands) {
     if (ColumnPlace& place = map[quantity]; place.absent())
       place = {quantity.column, std::string(quantity.unit())};
   return map;
+}
+
+bool divided_by_length(const ColumnPlace& contraction) {
+  return contraction.unit != "1" && contraction.unit != "%";
 }
 
 std::string line_in_unit(std::string_view quantity, const ColumnPlace& meant) {

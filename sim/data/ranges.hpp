@@ -20,6 +20,10 @@ domain::ColumnMap with_our_names(domain::ColumnMap map, plant::CommandUnit comma
 /// says the old unit counts no more.
 std::string line_in_unit(std::string_view quantity, const domain::ColumnPlace& meant);
 
+/// Whether a contraction is a length or an angle in its column: then the rig's rest length makes a ratio of
+/// it.
+bool divided_by_length(const domain::ColumnPlace& contraction);
+
 /// A column of a run, in our unit.
 struct ReadColumn {
   std::string_view name;  ///< current_mA

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include <sim/data/judged.hpp>
 #include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
+#include <sim/data/ranges.hpp>
 #include <sim/data/stamps.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/run/batch.hpp>
@@ -118,6 +120,45 @@ void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>
                       .severity = data::Severity::doubtful});
 }
 
+void add_far_off(const domain::Dataset& data, const std::vector<ReplayedRun>& replayed,
+                 std::vector<data::Finding>& findings) {
+  constexpr double most = 1.0 / 3.0;  // of what was read in all runs
+  struct Worst {
+    Gap gap{};
+    std::vector<std::size_t> runs{};
+  };
+  std::map<std::string, Worst> worst;
+  for (std::size_t i = 0; i < replayed.size(); ++i)
+    for (const Gap& gap : replayed[i].gaps) {
+      if (gap.rows == 0) continue;
+      auto& [one, runs] = worst[gap.reading];
+      one.rmse = std::max(one.rmse, gap.rmse);
+      one.low = std::min(one.low, gap.low);
+      one.high = std::max(one.high, gap.high);
+      runs.push_back(i);
+    }
+  for (auto& [reading, found] : worst) {
+    const double share = found.gap.rmse / (found.gap.high - found.gap.low);
+    const auto explains = [&](const data::Finding& one) {
+      return one.quantity == reading || one.severity == data::Severity::refused;
+    };
+    if (!(share > most) || !std::isfinite(share) || std::ranges::any_of(findings, explains)) continue;
+    const auto columns = data::with_our_names(
+        domain::merged(data.columns, data.runs[found.runs.front()].columns), data.rig.command_unit());
+    const bool by_length = reading == "contraction" && data::divided_by_length(columns[reading]);
+    findings.push_back({.quantity = reading,
+                        .runs = std::move(found.runs),
+                        .message = fmt::format("{}: rmse is up to {:.0f} % of what was read: before "
+                                               "diagnose, look at the column's zero, factor "
+                                               "and unit, at the loads and at the rig{}",
+                                               reading, 100.0 * share,
+                                               by_length ? fmt::format(", also at its rest_length, {:.4g} mm",
+                                                                       1e3 * data.rig.muscle.rest_length_m)
+                                                         : ""),
+                        .severity = data::Severity::doubtful});
+  }
+}
+
 Look look(domain::Dataset data) {
   std::vector<data::Finding> findings;
   if (!data.rows_of_stamps) findings = data::mend_at_stamps(data);
@@ -145,6 +186,7 @@ Look look(domain::Dataset data) {
     std::erase_if(examined.findings, [](const data::Finding& one) { return one.quantity.empty(); });
   add_not_at_rest(data, replayed, examined.findings);
   ask_absolute(data, squares(data, expected), examined.findings);
+  add_far_off(data, replayed, examined.findings);
   for (data::Finding& finding : examined.findings)
     for (std::size_t& run : finding.runs) run *= step;
   std::ranges::move(examined.findings, std::back_inserter(findings));

@@ -17,6 +17,11 @@ std::vector<data::Expected> expected_of(const domain::Dataset& data,
 void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>& replayed,
                      std::vector<data::Finding>& findings);
 
+/// Adds readings that are so far off that no effect is missing, but a description is wrong, unless what is
+/// wrong has been found.
+void add_far_off(const domain::Dataset& data, const std::vector<ReplayedRun>& replayed,
+                 std::vector<data::Finding>& findings);
+
 struct Look {
   std::vector<data::Finding> findings;
   std::size_t runs = 0;  ///< that were looked at

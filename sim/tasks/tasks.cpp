@@ -55,32 +55,6 @@ std::vector<std::string> asked_first(const domain::Dataset& dataset) {
   return in_words(dataset, asked_of(dataset));
 }
 
-namespace {
-
-/// Readings that are so far off that no effect is missing, but a description is wrong.
-std::vector<std::string> far_off(const std::vector<run::ReplayedRun>& runs) {
-  constexpr double most = 1.0 / 3.0;  // of what was read in all runs
-  std::map<std::string, run::Gap> worst;
-  for (const auto& run : runs)
-    for (const run::Gap& gap : run.gaps) {
-      if (gap.rows == 0) continue;
-      run::Gap& one = worst[gap.reading];
-      one.rmse = std::max(one.rmse, gap.rmse);
-      one.low = std::min(one.low, gap.low);
-      one.high = std::max(one.high, gap.high);
-    }
-  std::vector<std::string> said;
-  for (const auto& [reading, gap] : worst)
-    if (const double share = gap.rmse / (gap.high - gap.low); share > most && std::isfinite(share))
-      said.push_back(fmt::format(
-          "{}: rmse is up to {:.0f} % of what was read: before diagnose, look at the column's zero, "
-          "factor and unit, at the loads and at the rig",
-          reading, 100.0 * share));
-  return said;
-}
-
-}  // namespace
-
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
                                      const std::vector<run::ReplayedRun>& runs) {
   std::vector<std::string> warnings = asked_first(dataset);
@@ -92,14 +66,15 @@ std::vector<std::string> warnings_of(const domain::Dataset& dataset,
   else if (!dataset.own_clock)
     looked = data::examine(dataset, run::expected_of(dataset, runs)).findings;
   data::raise(dataset, looked);
-  if (!looks) run::add_not_at_rest(dataset, runs, looked);
+  if (!looks) {
+    run::add_not_at_rest(dataset, runs, looked);
+    run::add_far_off(dataset, runs, looked);
+  }
   for (const auto& finding : looked)
     if (!data::only_limits_diagnosis(finding)) warnings.push_back(data::text_of(dataset, finding));
   for (const auto& run : runs)
     for (const auto& doubt : run::doubts(run.recording))
       warnings.push_back(data::warning_of_run(run.id, doubt));
-  const auto far = far_off(runs);
-  warnings.insert(warnings.end(), far.begin(), far.end());
   return dataset.own_clock ? data::grouped(std::move(warnings)) : warnings;
 }
 
