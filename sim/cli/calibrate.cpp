@@ -8,8 +8,6 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/calibration_file.hpp>
-#include <sim/input/dataset_file.hpp>
-#include <sim/input/rigs.hpp>
 #include <sim/output/calibration_report.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
@@ -38,10 +36,8 @@ void add_choice(CLI::App& verb, const char* name, T& value, const std::map<std::
 }
 
 int calibrate_dataset(const CalibrateOptions& options) {
-  domain::Dataset measured = input::read_dataset(options.dataset);
-  if (!options.rig.empty())
-    tasks::replace_rig(measured, options.rig, input::read_rig(options.rig, measured.inputs));
-  const domain::Dataset dataset = tasks::ticked(std::move(measured), say);
+  const domain::Dataset dataset =
+      tasks::ticked(tasks::read_measured(options.dataset, options.rig, tasks::replace_rig), say);
   Job job(options, "calibrate " + options.dataset, output::name_of(dataset) + "-calibrate", dataset.inputs);
   const thesis::CalibrationResult result = thesis::calibrate(dataset, options.fits);
   if (run::interrupted()) throw run::Interrupted();

@@ -12,7 +12,6 @@
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/dataset_file.hpp>
-#include <sim/input/rigs.hpp>
 #include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
@@ -57,8 +56,7 @@ struct DiagnoseOptions : Options {
 };
 
 int diagnose_dataset(const DiagnoseOptions& options) {
-  domain::Dataset data = input::read_dataset(options.dataset);
-  if (!options.rig.empty()) input::take_rig(data, options.rig, input::read_rig(options.rig, data.inputs));
+  domain::Dataset data = tasks::read_measured(options.dataset, options.rig, input::take_rig);
   const std::vector<std::string> warnings = tasks::prepare(data, options.hypotheses, warn);
   const std::string name = output::name_of(data);
   check_plan(options.plan);

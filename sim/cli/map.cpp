@@ -88,8 +88,10 @@ std::vector<double> loads_of(const controllers::CalibratedRange& range, const Ma
 /// What is asked for; adds the files that are read. Throws BadInput.
 run::MapPlan plan_of(const MapOptions& options, std::vector<domain::InputFile>& files) {
   run::MapPlan plan;
-  plan.calibration = input::read_calibration(options.calibration, files);
-  const plant::Rig rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files);
+  plant::Rig rig;
+  input::read_together(
+      {{options.calibration, [&] { plan.calibration = input::read_calibration(options.calibration, files); }},
+       {options.rig, [&] { rig = input::read_rig(options.rig.empty() ? "thesis" : options.rig, files); }}});
   input::require_load(rig, options.rig, "map");
   if (std::string why = input::wrong_rig(plan.calibration, rig, true); !why.empty())
     throw input::BadInput({{input::Severity::error, options.calibration, {}, std::move(why), ""}});

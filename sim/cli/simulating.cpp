@@ -12,8 +12,6 @@
 #include <sim/cluster/share.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/engine/versions.hpp>
-#include <sim/input/dataset_file.hpp>
-#include <sim/input/rigs.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/output/replay_results.hpp>
@@ -188,9 +186,7 @@ int run_scenario(const RunOptions& options) {
 }
 
 int replay_dataset(const ReplayOptions& options) {
-  domain::Dataset dataset = input::read_dataset(options.dataset);
-  if (!options.rig.empty())
-    tasks::replace_rig(dataset, options.rig, input::read_rig(options.rig, dataset.inputs));
+  const domain::Dataset dataset = tasks::read_measured(options.dataset, options.rig, tasks::replace_rig);
   const std::string name = output::name_of(dataset);
   Job job(options, "replay " + options.dataset, name + "-replay", dataset.inputs);
   const auto first = tasks::asked_first(dataset);

@@ -119,4 +119,19 @@ void Problems::raise() const {
   throw BadInput(sorted());
 }
 
+void read_together(std::initializer_list<std::pair<std::string_view, std::function<void()>>> inputs) {
+  Problems problems;
+  std::vector<Problem> missing;
+  for (const auto& [called, read] : inputs) try {
+      read();
+    } catch (const BadInput& bad) {
+      problems.adopt(bad.problems());
+    } catch (const MissingInput& error) {
+      missing.push_back({Severity::missing_file, std::string(called), nowhere, error.what(), ""});
+    }
+  if (missing.size() == 1 && problems.errors() == 0) throw MissingInput(missing.front().message);
+  problems.adopt(missing);
+  problems.raise();
+}
+
 }  // namespace mckibben::input

@@ -5,8 +5,11 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -82,5 +85,8 @@ class Problems {
   std::size_t not_kept_ = 0;
   std::size_t missing_ = 0;
 };
+
+/// Reads several inputs, each called as messages call it, and throws what is wrong with all of them at once.
+void read_together(std::initializer_list<std::pair<std::string_view, std::function<void()>>> inputs);
 
 }  // namespace mckibben::input

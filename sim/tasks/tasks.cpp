@@ -1,7 +1,8 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <filesystem>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,11 +18,27 @@
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/hypothesis_file.hpp>
+#include <sim/input/rigs.hpp>
 #include <sim/run/look.hpp>
 #include <sim/tasks/tasks.hpp>
-#include <sim/thesis/processing.hpp>
 
 namespace mckibben::tasks {
+
+domain::Dataset read_measured(const std::string& dataset, const std::string& rig,
+                              void (*take)(domain::Dataset&, const std::string&, plant::Rig)) {
+  domain::Dataset data;
+  plant::Rig other;
+  std::vector<domain::InputFile> files;
+  input::read_together({{dataset, [&] { data = input::read_dataset(std::filesystem::path(dataset)); }},
+                        {rig, [&] {
+                           if (!rig.empty()) other = input::read_rig(rig, files);
+                         }}});
+  if (rig.empty()) return data;
+  take(data, rig, std::move(other));
+  data.inputs.insert(data.inputs.end(), files.begin(), files.end());
+  return data;
+}
+
 void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig rig) {
   const bool pair = dataset.rig.pair() != nullptr;
   if (!dataset.own_clock) input::require_load(rig, called, "a replay of data with a load");
@@ -78,21 +95,43 @@ std::vector<std::string> warnings_of(const domain::Dataset& dataset,
   return dataset.own_clock ? data::grouped(std::move(warnings)) : warnings;
 }
 
+namespace {
+
+/// What `check` says of the data, but for what is about a diagnosis. Throws what is wrong with them.
+std::vector<std::string> checked(const domain::Dataset& data) {
+  std::vector<data::Finding> found = asked_of(data);
+  std::vector<data::Finding> looked = run::look(data).findings;
+  std::erase_if(looked, data::only_limits_diagnosis);
+  std::ranges::move(looked, std::back_inserter(found));
+  data::raise(data, found);
+  return data::grouped(in_words(data, found));
+}
+
+}  // namespace
+
 domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say) {
-  if (!data.own_clock || !input::why_unfit(domain::Purpose::calibration, data).empty()) {
-    input::require_ticks(data, "calibrate");
-    return data;
-  }
+  const bool stamped = data.own_clock && input::why_unfit(domain::Purpose::calibration, data).empty();
+  if (!stamped) input::require_ticks(data, "calibrate");
+  for (const std::string& warning : checked(data)) say("warning: " + warning);
+  if (!stamped) return data;
   data = data::with_rows(std::move(data));
   data.rig.tick_s = data.row_s();
   constexpr double uneven = 0.1;  // of a row
-  for (const domain::Run& run : data.runs)
-    for (std::size_t k = 1; k < run.time_s.size(); ++k)
-      if (const double step_s = run.time_s[k] - run.time_s[k - 1];
-          std::abs(step_s - data.row_s()) > uneven * data.row_s())
-        thesis::refuse(data, fmt::format("calibrate cannot take it: stamps of run {} are {:.6g} ms apart at "
-                                         "{:.6g} s, others {:.6g} ms, and too few to make even rows of them",
-                                         run.id, 1e3 * step_s, run.time_s[k], 1e3 * data.row_s()));
+  data::Finding wide;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const std::vector<double>& time_s = data.runs[i].time_s;
+    const auto gap = std::ranges::adjacent_find(time_s, [&](double from_s, double to_s) {
+      return std::abs(to_s - from_s - data.row_s()) > uneven * data.row_s();
+    });
+    if (gap == time_s.end()) continue;
+    wide.runs.push_back(i);
+    if (wide.message.empty())
+      wide.message = fmt::format(
+          "calibrate cannot take it: stamps are {:.6g} ms apart at {:.6g} s, others "
+          "{:.6g} ms, and too few to make even rows of them",
+          1e3 * (gap[1] - gap[0]), gap[1], 1e3 * data.row_s());
+  }
+  if (!wide.runs.empty()) throw data::UnfitData(data, std::vector{wide});
   say(fmt::format("rows {:.6g} ms apart are made of the stamps", 1e3 * data.row_s()));
   return data;
 }

@@ -14,6 +14,11 @@
 
 namespace mckibben::tasks {
 
+/// A data set, on another rig if `rig` is not empty, which `take` gives it. Throws input::MissingInput, and
+/// input::BadInput with what is wrong with both.
+domain::Dataset read_measured(const std::string& dataset, const std::string& rig,
+                              void (*take)(domain::Dataset&, const std::string& called, plant::Rig));
+
 // A replay.
 
 /// Another rig for the data. `called`: as messages call it. Throws input::BadInput where the data are not of
@@ -31,8 +36,8 @@ std::vector<std::string> warnings_of(const domain::Dataset& dataset,
 
 // A calibration.
 
-/// A data set with a row each tick: what it is, or rows made of its stamps; `say` hears that. Throws
-/// input::BadInput, data::UnfitData where it cannot be.
+/// A data set with a row each tick: what it is, or rows made of its stamps; `say` hears that, and what
+/// `check` says of the data. Throws input::BadInput, data::UnfitData where it cannot be.
 domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say);
 
 // A diagnosis.

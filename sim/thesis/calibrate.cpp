@@ -1,5 +1,7 @@
 // See the header.
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,18 +25,21 @@ std::string runs_left_out(const Grid& grid) {
                      grid.left_out.front().why);
 }
 
+using Wrong = std::vector<data::Finding>;
+
 /// Too few for an order. If that is because nothing moved, more of the same would not help: the cause leads.
-[[noreturn]] void refuse_few(const domain::Dataset& dataset, const Grid& grid, const std::string& short_of,
-                             const std::string& more, const char* option, std::size_t order) {
+data::Finding too_few(const domain::Dataset& dataset, const Grid& grid, const std::string& short_of,
+                      const std::string& more, const char* option, std::size_t order) {
   const std::string still = grid.still_runs(dataset.rig.valve);
   const std::string instead = fmt::format(", or set {} {}", option, order);
-  if (!still.empty()) refuse(dataset, fmt::format("{}{}. Without these runs, {}", still, instead, short_of));
-  refuse(dataset, fmt::format("{}: measure {}{}{}", short_of, more, instead, runs_left_out(grid)));
+  return {.message = still.empty()
+                         ? fmt::format("{}: measure {}{}{}", short_of, more, instead, runs_left_out(grid))
+                         : fmt::format("{}{}. Without these runs, {}", still, instead, short_of)};
 }
 
 /// Effects that change the pull otherwise than by what is counted, or friction: neither the force balance nor
 /// a weighing would see them.
-void check_effects(const domain::Dataset& dataset) {
+void check_effects(const domain::Dataset& dataset, Wrong& wrong) {
   std::string changed;
   const auto add = [&](std::string_view name) {
     changed += (changed.empty() ? "" : ", ") + std::string(name);
@@ -53,56 +58,59 @@ void check_effects(const domain::Dataset& dataset) {
   for (const auto& law : dataset.rig.effects.laws.list)
     if (!law.absent() && law.text->adds == plant::LawTarget::force) add(law.text->name);
   if (!changed.empty())
-    refuse(dataset,
-           fmt::format("the rig has {}, and the thesis's models know no muscle with it: friction (T 4.6) is "
-                       "computed from the braid force of T 2.8. Controllers with a model of the whole rig "
-                       "(model_inverse) count it; --rig names a rig without it",
-                       changed));
+    wrong.push_back(
+        {.message = fmt::format(
+             "the rig has {}, and the thesis's models know no muscle with it: friction (T 4.6) is "
+             "computed from the braid force of T 2.8. Controllers with a model of the whole rig "
+             "(model_inverse) count it; --rig names a rig without it",
+             changed)});
 }
 
 /// Enough loads and speeds for the orders that are asked for.
-void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options& options) {
+void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options& options, Wrong& wrong) {
   constexpr int highest_speed_order = 2, highest_load_order = 3;  // T 4.13, T 4.15
   const auto loads = static_cast<std::size_t>(std::min(options.orders.load, highest_load_order)) + 1;
   const auto speeds = static_cast<std::size_t>(std::min(options.orders.speed, highest_speed_order)) + 1;
   if (grid.loads_kg.size() < loads)
-    refuse_few(dataset, grid,
-               fmt::format("a polynomial of order {} in the load (T 4.14 to 4.28) needs {} loads, and there "
-                           "{} {} ({} kg{})",
-                           loads - 1, loads, grid.loads_kg.size() == 1 ? "is" : "are", grid.loads_kg.size(),
-                           listed(grid.loads_kg),
-                           grid.merged_loads > 0 ? "; loads within 0.1 % of each other are one" : ""),
-               "more loads", "--load-order", grid.loads_kg.size() - 1);
+    wrong.push_back(
+        too_few(dataset, grid,
+                fmt::format("a polynomial of order {} in the load (T 4.14 to 4.28) needs {} loads, and there "
+                            "{} {} ({} kg{})",
+                            loads - 1, loads, grid.loads_kg.size() == 1 ? "is" : "are", grid.loads_kg.size(),
+                            listed(grid.loads_kg),
+                            grid.merged_loads > 0 ? "; loads within 0.1 % of each other are one" : ""),
+                "more loads", "--load-order", grid.loads_kg.size() - 1));
+  if (!wrong.empty() && !grid.still_runs(dataset.rig.valve).empty()) return;
   for (const double load_kg : grid.loads_kg) {
     std::vector<double> found;
     for (const Cell& cell : grid.of(Direction::contraction))
       if (cell.load_kg == load_kg) found.push_back(cell.speed_mA_per_s);
-    if (found.size() < speeds)
-      refuse_few(
-          dataset, grid,
-          in_unit(dataset.rig.command_unit(),
-                  fmt::format(
-                      "a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
-                      "with {:g} kg there {} {} ({} mA/s)",
-                      speeds - 1, speeds, load_kg, found.size() == 1 ? "is" : "are", found.size(),
-                      listed(found))),
-          "more periods of the " + plant::command_key(dataset.rig), "--speed-order", found.size() - 1);
+    if (found.size() >= speeds) continue;
+    return wrong.push_back(too_few(
+        dataset, grid,
+        in_unit(
+            dataset.rig.command_unit(),
+            fmt::format(
+                "a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
+                "with {:g} kg there {} {} ({} mA/s)",
+                speeds - 1, speeds, load_kg, found.size() == 1 ? "is" : "are", found.size(), listed(found))),
+        "more periods of the " + plant::command_key(dataset.rig), "--speed-order", found.size() - 1));
   }
 }
 
 /// Friction that drives the motion on the whole is no friction.
-void check_friction(const domain::Dataset& dataset, const Grid& grid) {
+void check_friction(const domain::Dataset& dataset, const Grid& grid, Wrong& wrong) {
   for (const Direction direction : directions) {
     double sum = 0.0;
     for (const Cell& cell : grid.of(direction)) sum += vector(cell.samples.coefficient).sum();
     if (sum <= 0.0)
-      refuse(dataset,
-             fmt::format(
-                 "in {} the muscle as computed (T 2.8) pulls {} than load and inertia explain, so friction "
-                 "comes out negative: wrong rig or loads? rest_radius, braid_angle, end_correction{} "
-                 "and the valve's line decide",
-                 name_of(direction), direction == Direction::contraction ? "less" : "more",
-                 tube_pull_of(dataset.rig) ? ", bladder_elasticity" : ""));
+      wrong.push_back(
+          {.message = fmt::format(
+               "in {} the muscle as computed (T 2.8) pulls {} than load and inertia explain, so friction "
+               "comes out negative: wrong rig or loads? rest_radius, braid_angle, end_correction{} "
+               "and the valve's line decide",
+               name_of(direction), direction == Direction::contraction ? "less" : "more",
+               tube_pull_of(dataset.rig) ? ", bladder_elasticity" : "")});
   }
 }
 
@@ -153,10 +161,13 @@ class Details {
 
 CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options) {
   CalibrationResult result;
-  check_effects(dataset);
-  result.grid = make_grid(dataset, options.processing);
-  check_grid(dataset, result.grid, options);
-  check_friction(dataset, result.grid);
+  Wrong wrong;
+  check_effects(dataset, wrong);
+  result.grid = make_grid(dataset, options.processing, std::move(wrong));
+  wrong.clear();
+  check_grid(dataset, result.grid, options, wrong);
+  check_friction(dataset, result.grid, wrong);
+  if (!wrong.empty()) throw data::UnfitData(dataset, std::move(wrong));
 
   controllers::Calibration& calibration = result.calibration;
   Details details(calibration.details);

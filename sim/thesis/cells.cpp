@@ -1,6 +1,7 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,15 @@ void put(std::vector<Cell>& cells, double load_kg, double speed, const Samples& 
   cell->samples.append(samples);
 }
 
+/// The same of several runs is one finding; numbers are those of the first.
+void add(std::vector<data::Finding>& list, data::Finding found, std::size_t run) {
+  const auto same = std::ranges::find_if(
+      list, [&](const data::Finding& one) { return !one.runs.empty() && one.kind == found.kind; });
+  if (same != list.end()) return same->runs.push_back(run);
+  found.runs.push_back(run);
+  list.push_back(std::move(found));
+}
+
 }  // namespace
 
 std::string Grid::still_runs(const plant::Valve& valve) const {
@@ -57,18 +67,22 @@ std::string Grid::still_runs(const plant::Valve& valve) const {
           : "lighter loads or slower currents, if loads, rig and encoder are right");
 }
 
-Grid make_grid(const domain::Dataset& dataset, const ProcessingOptions& options) {
+Grid make_grid(const domain::Dataset& dataset, const ProcessingOptions& options,
+               std::vector<data::Finding> wrong) {
   constexpr double same_speed = 0.02, same_load = 1e-3;
   Grid grid;
   std::vector<ProcessedRun> used;
-  for (const domain::Run& run : dataset.runs) {
+  for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
+    const domain::Run& run = dataset.runs[i];
     ProcessedRun processed = process(run, dataset, options);
+    for (data::Finding& found : processed.wrong) add(wrong, std::move(found), i);
     if (processed.unusable.empty())
       used.push_back(std::move(processed));
     else
       grid.left_out.push_back({processed.id, processed.unusable, processed.still,
                                *std::max_element(run.current_mA.begin(), run.current_mA.end())});
   }
+  if (!wrong.empty()) throw data::UnfitData(dataset, std::move(wrong));
   if (used.empty()) {
     const std::string still = grid.still_runs(dataset.rig.valve);
     refuse(dataset,

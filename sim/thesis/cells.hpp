@@ -40,8 +40,10 @@ struct Grid {
   }
 };
 
-/// Processes every run and sorts it in. Throws data::UnfitData.
-Grid make_grid(const domain::Dataset& dataset, const ProcessingOptions& options);
+/// Processes every run and sorts it in. `wrong`: what is wrong with the data set already. Throws
+/// data::UnfitData with that and with what is wrong with each run.
+Grid make_grid(const domain::Dataset& dataset, const ProcessingOptions& options,
+               std::vector<data::Finding> wrong = {});
 
 /// A column of samples as Eigen sees it.
 inline Eigen::Map<const Eigen::VectorXd> vector(const std::vector<double>& values) {

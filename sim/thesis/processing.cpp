@@ -1,6 +1,7 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -83,7 +84,8 @@ class Processor {
     ProcessedRun result;
     result.id = run_.id;
     result.load_kg = run_.load_kg;
-    count();
+    count(result.wrong);
+    if (!result.wrong.empty()) return result;
     const auto halves = half_periods(run_.current_mA);
     if (halves.empty()) {
       result.unusable = "its current hardly changes (" + moved() + ")";
@@ -120,32 +122,34 @@ class Processor {
                                *low_mA, *high_mA));
   }
 
-  void count() {
-    double off = 0.0;
+  void count(std::vector<data::Finding>& wrong) {
+    const auto find = [&](const char* kind, std::string message) {
+      wrong.push_back({.message = std::move(message), .kind = kind});
+    };
+    double off = 0.0, highest = 0.0;
     for (const double ratio : run_.contraction_ratio) {
       const double counts = ratio / per_count_;
       counts_.push_back(std::round(counts));
       off += std::abs(counts - counts_.back());
-      if (ratio >= (1.0 + overshoot) * braid_.largest_contraction_ratio())
-        refuse(
-            dataset_,
-            fmt::format("run {}: contraction ratio {:.4f} is beyond this rig's limit {:.4f} (T 2.10): wrong "
-                        "rig? Its rest_length, braid_angle and end_correction decide",
-                        run_.id, ratio, braid_.largest_contraction_ratio()));
+      highest = std::max(highest, ratio);
     }
+    if (highest >= (1.0 + overshoot) * braid_.largest_contraction_ratio())
+      find("beyond",
+           fmt::format("contraction ratio {:.4f} is beyond this rig's limit {:.4f} (T 2.10): wrong rig? Its "
+                       "rest_length, braid_angle and end_correction decide",
+                       highest, braid_.largest_contraction_ratio()));
     constexpr double clearly_off = 0.15;  // a wrong count would give 0.25, a rounded table less than 0.1
     counted_ =
         rig_.sensors.position().counts_pulses() && off <= clearly_off * static_cast<double>(counts_.size());
     if (!counted_ && has_other_sensor())
       take_as_read();
     else if (!counted_)
-      refuse(dataset_, fmt::format("run {}: contraction ratios are no multiples of this rig's encoder count "
-                                   "({:.4e}): wrong rig? Its encoder, wheel_radius and rest_length decide",
-                                   run_.id, per_count_));
+      find("uncounted",
+           fmt::format("contraction ratios are no multiples of this rig's encoder count ({:.4e}): wrong rig? "
+                       "Its encoder, wheel_radius and rest_length decide",
+                       per_count_));
     if (options_.pressure == PressureSource::gauge && !run_.muscle_pressure_Pa)
-      refuse(dataset_,
-             fmt::format("run {} has no column muscle_pressure_bar, which pressure from the gauge needs",
-                         run_.id));
+      find("gauge", "no column muscle_pressure_bar, which pressure from the gauge needs");
   }
 
   /// Whether the rig has another sensor, or the data set names a unit of contraction that no encoder has.

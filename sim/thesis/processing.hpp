@@ -12,6 +12,7 @@
 
 #include <controllers/calibration.hpp>
 #include <plant/rig.hpp>
+#include <sim/data/finding.hpp>
 #include <sim/domain/dataset.hpp>
 
 namespace mckibben::thesis {
@@ -63,8 +64,9 @@ struct ProcessedRun {
   std::array<Samples, 2> samples;                ///< by Direction
   std::array<std::vector<std::size_t>, 2> rows;  ///< of the table, one for each sample
   Dropped dropped;
-  std::string unusable;  ///< why the run cannot be used; empty if it can
-  bool still = false;    ///< it cannot because nothing moves enough
+  std::vector<data::Finding> wrong;  ///< it cannot be of this rig, or the gauge is missing: no samples
+  std::string unusable;              ///< why the run cannot be used; empty if it can
+  bool still = false;                ///< it cannot because nothing moves enough
 
   const Samples& of(Direction direction) const { return samples[static_cast<std::size_t>(direction)]; }
 };
@@ -81,7 +83,6 @@ std::vector<HalfPeriod> half_periods(const std::vector<double>& current_mA);
 /// The rig's bladder_elasticity, which counts in the force balance; none if it has none.
 std::optional<controllers::TubePull> tube_pull_of(const plant::Rig& rig);
 
-/// Throws data::UnfitData if the run cannot be of this rig or the gauge is missing.
 ProcessedRun process(const domain::Run& run, const domain::Dataset& dataset,
                      const ProcessingOptions& options);
 

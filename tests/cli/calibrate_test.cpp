@@ -59,6 +59,35 @@ TEST(Calibrate, WarnsOfFitsThatCannotBeUsed) {
   EXPECT_GT(document.at("friction").at("relaxation").at("spread").get<double>(), 1.0);
 }
 
+TEST(Calibrate, SaysAllThatIsWrongAtOnce) {
+  const Scratch scratch;
+  write_text(scratch / "small.yaml", campaign_of_sines());
+  ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
+  write_text(scratch / "longer.yaml", "schema: mckibben-rig/1\nmuscle: {rest_length: 311 mm}\n");
+  const Said runs = mckibben("calibrate data --pressure gauge --rig longer.yaml", scratch);
+  EXPECT_EQ(runs.status, 65);
+  EXPECT_TRUE(holds(runs.err, "all runs: contraction ratios are no multiples of this rig's encoder count"));
+  EXPECT_TRUE(holds(runs.err, "all runs: no column muscle_pressure_bar"));
+
+  const std::string good = read_text(scratch / "data/dataset.yaml");
+  write_text(scratch / "data/dataset.yaml",
+             good + "columns: {current: {column: current_mA, unit: mA, factor: 0.001}}\n");
+  EXPECT_TRUE(holds(mckibben("check data", scratch).err, "this looks like amperes, not mA"));
+  EXPECT_TRUE(holds(mckibben("calibrate data", scratch).err, "this looks like amperes, not mA"));
+
+  write_text(scratch / "data/dataset.yaml", good + "speed: 3\n");
+  write_text(scratch / "bad.yaml", "schema: mckibben-rig/1\nmuscle: {rest_length: 9 kg, radius: 6 mm}\n");
+  const Said files = mckibben("calibrate data --rig bad.yaml", scratch);
+  EXPECT_EQ(files.status, 65);
+  for (const char* part :
+       {"data/dataset.yaml:", "unknown key speed", "bad.yaml:2:23: error: rest_length = 9 kg",
+        "bad.yaml:2:29: error: unknown key radius"})
+    EXPECT_TRUE(holds(files.err, part)) << files.err;
+  const Said missing = mckibben("replay nowhere --rig bad.yaml", scratch);
+  EXPECT_TRUE(holds(missing.err, "nowhere: error: nowhere: cannot be opened"));
+  EXPECT_TRUE(holds(missing.err, "bad.yaml:2:29: error: unknown key radius"));
+}
+
 TEST(Calibrate, RefusesTooFewLoadsAndSaysWhatHelps) {
   const Scratch scratch;
   write_text(scratch / "small.yaml", campaign_of_sines("[11.138 kg, 14 kg]"));

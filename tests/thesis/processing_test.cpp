@@ -7,6 +7,7 @@
 
 #include <plant/geometry.hpp>
 #include <sim/data/finding.hpp>
+#include <sim/thesis/cells.hpp>
 #include <sim/thesis/processing.hpp>
 
 #include "small_campaign.hpp"
@@ -92,7 +93,9 @@ TEST(Processing, WhatALaserReadsIsNotTakenForCounts) {
   dataset.rig.sensors.position().pulses_per_turn = 137;
   ProcessingOptions options;
   options.acceleration = Acceleration::neglected;
-  EXPECT_THROW(process(run, dataset, options), data::UnfitData) << "they should be counts of this encoder";
+  ASSERT_EQ(process(run, dataset, options).wrong.size(), 1u) << "they should be counts of this encoder";
+  dataset.runs = {run, run};
+  EXPECT_THROW(make_grid(dataset, options), data::UnfitData);
   dataset.columns["contraction"] = {"laser", "mm"};
   const ProcessedRun processed = process(run, dataset, options);
   ASSERT_EQ(processed.unusable, "");
