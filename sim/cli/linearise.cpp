@@ -89,7 +89,7 @@ LinearTask read_task(const LineariseOptions& options) {
   LinearTask task;
   task.all.rig = input::read_rig(options.file, task.all.files);
   task.all.name = input::made_file_safe(std::filesystem::path(options.file).stem().string());
-  task.loads_kg = {task.all.rig.pair() ? 0.0 : input::usual_load_kg(task.all.rig)};
+  task.loads_kg = {task.all.rig.pair() ? 0.0 : domain::usual_load_kg(task.all.rig)};
   return task;
 }
 

@@ -32,7 +32,7 @@ int show_live(const LiveOptions& options) {
   const plant::Rig rig = input::read_rig(options.rig, inputs);
   const bool pair = rig.pair() != nullptr;
   if (!rig.has_angle()) input::require_load(rig, options.rig, "live");
-  const double load_kg = options.load_kg > 0.0 ? options.load_kg : input::usual_load_kg(rig);
+  const double load_kg = options.load_kg > 0.0 ? options.load_kg : domain::usual_load_kg(rig);
   const std::string why = !pair                   ? domain::too_heavy(load_kg, rig)
                           : options.load_kg > 0.0 ? "two muscles turn a link; no load hangs there"
                                                   : "";

@@ -1,4 +1,6 @@
 // The field lists of the plant, walked with the path as a guide; see the header.
+#include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <iomanip>
 #include <sstream>
@@ -157,6 +159,18 @@ std::string broken_rule(const plant::Rig& rig) {
     judge.enter("mechanics", *lever, [&] { plant::Lever::fields(*lever, judge); });
   judge.judge(rig);
   return judge.broken;
+}
+
+double usual_load_kg(const plant::Rig& rig) {
+  constexpr double share = 0.13, least_kg = 0.1;
+  const double most_N = plant::Braid(rig.muscle).largest_force_N(rig.valve.span_pressure_Pa);
+  double kg = share * most_N / plant::gravity_m_per_s2;
+  if (rig.lever() != nullptr) {  // what pulls at its muscle goes straight with the load
+    const double none_kg = rig.pulled_kg(0.0);
+    kg = std::max(least_kg, (kg - none_kg) / (rig.pulled_kg(1.0) - none_kg));
+  }
+  const double digit = std::pow(10.0, std::floor(std::log10(kg)) - 1.0);
+  return std::round(kg / digit) * digit;
 }
 
 std::string too_heavy(double load_kg, const plant::Rig& rig) {

@@ -28,6 +28,9 @@ std::vector<std::string> paths_with_mechanics(const plant::Rig& rig);
 /// The first rule between fields that the rig breaks, in words; empty if none.
 std::string broken_rule(const plant::Rig& rig);
 
+/// A load that the muscle lifts about halfway: by its force at full pressure, in two digits.
+double usual_load_kg(const plant::Rig& rig);
+
 /// Why the rig's taut threads cannot bear a load; empty if they can.
 std::string too_heavy(double load_kg, const plant::Rig& rig);
 

@@ -1,12 +1,10 @@
 // Checks shared by the readers of scenarios and campaigns; see the header.
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include <plant/geometry.hpp>
 #include <sim/domain/rig_number.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/current_checks.hpp>
@@ -60,18 +58,6 @@ std::string no_mass(const plant::Rig& rig) {
   return "without a load nothing moves: give joint.moving_mass, or wheel_inertia, of the rig";
 }
 
-double usual_load_kg(const plant::Rig& rig) {
-  constexpr double share = 0.13, least_kg = 0.1;
-  const double most_N = plant::Braid(rig.muscle).largest_force_N(rig.valve.span_pressure_Pa);
-  double kg = share * most_N / plant::gravity_m_per_s2;
-  if (rig.lever() != nullptr) {  // what pulls at its muscle goes straight with the load
-    const double none_kg = rig.pulled_kg(0.0);
-    kg = std::max(least_kg, (kg - none_kg) / (rig.pulled_kg(1.0) - none_kg));
-  }
-  const double digit = std::pow(10.0, std::floor(std::log10(kg)) - 1.0);
-  return std::round(kg / digit) * digit;
-}
-
 void check_name(const YamlFile& file, const std::string& name, Problems& problems) {
   const Node* given = file.root.find("name");
   if (given != nullptr && !is_file_safe(name))
@@ -117,12 +103,12 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, no_mass(rig)));
     else if (const auto why = domain::too_heavy(loads_kg[i], rig); !why.empty())
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, why));
-    else if (loads_kg[i] > 0.0 && loads_kg[i] < hardly_anything * usual_load_kg(rig))
+    else if (loads_kg[i] > 0.0 && loads_kg[i] < hardly_anything * domain::usual_load_kg(rig))
       problems.warning(
           file.source, node.place,
           fmt::format("loads: {} is next to nothing for this muscle, which usually lifts {:g} kg: "
                       "is the unit right?",
-                      node.text, usual_load_kg(rig)));
+                      node.text, domain::usual_load_kg(rig)));
   }
 }
 

@@ -29,9 +29,6 @@ void require_load(const plant::Rig& rig, const std::string& file, std::string_vi
 /// What is missing where `Rig::can_hang` refuses a load.
 std::string no_mass(const plant::Rig& rig);
 
-/// A load that the muscle lifts about halfway: by its force at full pressure, in two digits.
-double usual_load_kg(const plant::Rig& rig);
-
 /// No load may stand twice in the list at `nodes`.
 void check_different(const std::vector<double>& loads_kg, const Node& nodes, const Source& source,
                      Problems& problems);

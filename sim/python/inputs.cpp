@@ -225,7 +225,7 @@ void add_inputs(py::module_& module) {
           [](const Rig& rig) { return plant::Braid(rig.file.muscle).largest_contraction_ratio(); },
           "Where the muscle pulls no more (T 2.10) [1].")
       .def_property_readonly(
-          "usual_load_kg", [](const Rig& rig) { return input::usual_load_kg(rig.file); },
+          "usual_load_kg", [](const Rig& rig) { return domain::usual_load_kg(rig.file); },
           "A load that full pressure lifts about halfway [kg].")
       .def_property_readonly(
           "command_range",

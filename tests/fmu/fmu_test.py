@@ -42,6 +42,10 @@ LAW = """effects:
         k: {unit: N/m, typical: 300, range: [0, 5000], value: 400}
         tau: {unit: s, typical: 3, range: [0.2, 60], value: 0.5}
 """
+FALLS = """schema: mckibben-rig/1
+muscle: {stop_stiffness: 1e5 N/m}
+effects: {residual_law: {terms: [{of: m g, coefficient: -800 N}]}}
+"""  # the threads bear a load of 48 kg, but not with what the effect adds
 HELD = """schema: mckibben-rig/1
 mechanics: {kind: held_length}
 integrator: {tolerance: 1e-12}
@@ -170,8 +174,32 @@ class AnFmu(unittest.TestCase):
             broken = fmu.answers([f"0 set {zero} 12", f"0 set {span} 8", "0 init 0", "0 start"])
             self.assertEqual(broken, ["valve.span_command: must be above zero_command", "failed"])
 
+    def test_refuses_loads_that_the_threads_cannot_bear(self):
+        heavy = "load = 200 kg: the taut threads of this muscle bear 147 kg"
+        for fmu in self.each("--true-states"):
+            load, height = fmu.reference["load"], fmu.reference["contraction_ratio"]
+            for early in ("0 start", f"0 get {height}"):
+                said, failed = fmu.answers([f"0 set {load} 200", "0 init 0", early])
+                self.assertTrue(said.startswith(heavy) and failed == "failed", said)
+            stop = fmu.reference["muscle.stop_stiffness"]  # that bears more
+            self.assertEqual(fmu.answers([f"0 set {load} 200", f"0 set {stop} 1e7", "0 init 0", "0 start"]), [])
+            ride = fmu.ride([10] * 20, ["contraction_ratio"])
+            said = fmu.answers([*ride[:34], f"0 set {load} 200", *ride[34:]])
+            self.assertTrue(said[11].startswith(heavy), said)
+            self.assertEqual(said[:11] + said[13:], fmu.answers(ride), "the last load goes on to hang")
+            no_mass = fmu.answers([f"0 set {load} 0", f"0 set {fmu.reference['joint.load_offset']} -1", "0 init 0", "0 start"])
+            self.assertEqual(no_mass, ["load = 0 kg: there must be some mass", "failed"])
+
+    def test_begins_with_a_load_of_its_muscle(self):
+        fmu = Fmu(self.folder, "festo_dmsp_5", "2.0", "--true-states")
+        load = next(each for each in fmu.variables if each.get("name") == "load")
+        self.assertLess(float(fmu.typed(load).get("start")), 5.0)
+        low, high = fmu.moved("contraction_ratio", ({}, 0), ({"command" if "command" in fmu.reference else "current": 20}, 200))
+        self.assertGreater(high - low, 0.05)
+
     def test_refuses_calls_out_of_order_and_they_change_nothing(self):
         currents = [5 + 0.1 * k for k in range(40)]
+        self.rig.write_text(FALLS)
         for fmu in self.each("--true-states"):
             load, height = fmu.reference["load"], fmu.reference["contraction_ratio"]
             ride = fmu.ride(currents, ["contraction_ratio"])
@@ -194,7 +222,7 @@ class AnFmu(unittest.TestCase):
             self.assertEqual(fmu.answers([*stuck, "0 reset", *ride])[-len(alone):], alone)
             # After a step that failed there is a state that was saved, too. A fall ends at the braid's end.
             cut = 4 + 3 * 20
-            torn = [*ride[:cut], "0 save", f"0 set {load} 1e6", *fmu.on(range(20, 100))]
+            torn = [*ride[:cut], "0 save", f"0 set {load} 48", *fmu.on(range(20, 100))]
             said = fmu.answers([*torn, f"0 set {load} 10", "0 init 0", "0 start", f"0 get {height}", "0 restore", *ride[cut:]])
             fallen = [answer for answer in said[21:] if answer not in alone]
             self.assertIn("a step before the initialisation has ended, or after a failure or the end", fallen)

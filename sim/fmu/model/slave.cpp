@@ -27,7 +27,7 @@ Slave::Slave(plant::Rig rig)
       current_mA_(rig_.valve.zero_command),
       length_m_(rig_.muscle.rest_length_m) {
   if (const plant::Pair* pair = rig_.pair()) opposite_current_mA_ = pair->opposite.valve.zero_command;
-  if (rig_.holds_a_length()) load_kg_ = 0.0;
+  if (rig_.lifts_a_load()) load_kg_ = domain::usual_load_kg(rig_);
 }
 
 void Slave::set(Reference reference, double value) {
@@ -42,7 +42,7 @@ void Slave::set(Reference reference, double value) {
   } else if (reference == length && rig_.holds_a_length()) {
     length_m_ = value;
   } else if (reference == load && rig_.lifts_a_load()) {
-    if (!rig_.can_hang(value)) throw std::runtime_error("load: there must be some mass");
+    if (steps) require_hanging(value);  // before, parameters may still change the rig
     load_kg_ = value;
   } else if (reference >= first_parameter && reference - first_parameter < paths_.size()) {
     const std::string& path = paths_[reference - first_parameter];
@@ -55,6 +55,14 @@ void Slave::set(Reference reference, double value) {
   } else {
     throw std::runtime_error("value reference " + std::to_string(reference) + " cannot be set");
   }
+}
+
+/// By the rule for the loads of files.
+void Slave::require_hanging(double load_kg) const {
+  if (!rig_.lifts_a_load()) return;
+  const std::string why =
+      rig_.can_hang(load_kg) ? domain::too_heavy(load_kg, rig_) : "there must be some mass";
+  if (!why.empty()) throw std::runtime_error(fmt::format("load = {:g} kg: {}", load_kg, why));
 }
 
 ride::Drive Slave::drive() const {
@@ -101,6 +109,7 @@ void Slave::make_ride() {
 
 void Slave::settle() {
   if (const std::string broken = domain::broken_rule(rig_); !broken.empty()) throw std::runtime_error(broken);
+  require_hanging(load_kg_);
   const ride::Drive at_first = ride::settling(drive(), rig_);
   hanging_kg_ = load_kg_;
   make_ride();

@@ -51,6 +51,7 @@ class Slave {
   void make_ride();
   void settle();
   ride::Drive drive() const;
+  void require_hanging(double load_kg) const;
   void hang(double load_kg);
   void look();
 
@@ -58,7 +59,7 @@ class Slave {
   std::vector<std::string> paths_;
   std::vector<plant::Channel> channels_;
   double current_mA_, opposite_current_mA_ = 0.0, length_m_;
-  double load_kg_ = usual_load_kg, hanging_kg_ = usual_load_kg;
+  double load_kg_ = 0.0, hanging_kg_ = 0.0;
   double time_s_ = 0.0;
   Mode mode_ = Mode::instantiated;
   std::int64_t counts_ = 0;

@@ -29,7 +29,7 @@ void add_inputs(std::vector<Variable>& list, const plant::Rig& rig) {
   if (rig.lifts_a_load())
     list.push_back({load, "load", Role::input, "kg",
                     rig.lever() != nullptr ? "mass of the load on the lever" : "mass that hangs on the wheel",
-                    false, usual_load_kg, 0.01, 500.0});
+                    false, domain::usual_load_kg(rig), 0.01, 500.0});
   if (rig.holds_a_length())
     list.push_back({length, "length", Role::input, "m", "length that the muscle has at the end of a step",
                     false, rig.muscle.rest_length_m, 0.01, 10.0});

@@ -45,7 +45,4 @@ std::vector<plant::Channel> channels_of(const plant::Rig& rig);
 /// The paths of what are parameters, in the order of their references.
 std::vector<std::string> parameter_paths(const plant::Rig& rig);
 
-/// Mass that hangs unless the importer says otherwise.
-inline constexpr double usual_load_kg = 10.0;
-
 }  // namespace mckibben::fmu
