@@ -39,4 +39,5 @@ PYBIND11_MODULE(_core, module) {
   add_findings(module);
   add_rides(module);
   add_batch(module);
+  add_keywords(module);
 }

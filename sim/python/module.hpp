@@ -24,6 +24,8 @@ void add_jobs(py::module_& module);
 void add_findings(py::module_& module);
 void add_rides(py::module_& module);
 void add_batch(py::module_& module);
+/// Last: methods of all before that answer unknown keywords.
+void add_keywords(py::module_& module);
 
 /// A rig as it was read.
 struct Rig {
