@@ -19,15 +19,17 @@ def reached(ride, currents):
 
 class Rides(unittest.TestCase):
     def test_go_where_a_run_goes(self):
-        run, = mckibben.Scenario({**SCENARIO, "loads": ["11.138 kg"], "rig": {"integrator": {"tolerance": 1e-9}}}).run().runs
-        ride = mckibben.Ride(run_rig := mckibben.Rig({"integrator": {"tolerance": 1e-9}}), load_kg=11.138)
-        self.assertEqual(run_rig, ride.rig)
-        ride.start(float(run["current_mA"][0]))
-        for k in range(len(run)):
-            self.assertEqual(ride.reading.counts, run["counts"][k], k)
-            self.assertAlmostEqual(ride.state[0], run["contraction_ratio"][k], delta=1e-7)
-            self.assertAlmostEqual(ride.time_s, run["time_s"][k], delta=1e-12)
-            ride.step(run["current_mA"][k])
+        for effects in ({}, {"reading_delay": {"time": "24 ms"}}):  # of whole ticks
+            rig = mckibben.Rig({"integrator": {"tolerance": 1e-9}, "effects": effects})
+            run, = mckibben.Scenario({**SCENARIO, "loads": ["11.138 kg"], "rig": rig}).run().runs
+            ride = mckibben.Ride(rig, load_kg=11.138)
+            self.assertEqual(rig, ride.rig)
+            ride.start(float(run["current_mA"][0]))
+            for k in range(len(run)):
+                self.assertEqual(ride.reading.counts, run["counts"][k], k)
+                self.assertAlmostEqual(ride.state[0], run["contraction_ratio"][k], delta=1e-7)
+                self.assertAlmostEqual(ride.time_s, run["time_s"][k], delta=1e-12)
+                ride.step(run["current_mA"][k])
 
     def test_go_on_from_what_was_saved_and_as_a_copy_to_the_same_bits(self):
         ride = mckibben.Ride(load_kg=14.0)
