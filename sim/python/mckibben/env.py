@@ -88,8 +88,8 @@ class Env(Base):
         return dict(zip(keys, numpy.array(self.rows, dtype=float).reshape(-1, len(keys)).T))
 
     def recording(self, id="episode"):
-        """The episode so far as a run of measured data: mckibben.Dataset({"rig": env.rig.to_dict(), "runs":
-        [env.recording()]}). There a row has the command from its time on; the first one is at rest, a tick before."""
+        """The episode so far as a run of measured data with its rig: mckibben.Dataset({"runs": [env.recording()]}).
+        There a row has the command from its time on; the first one is at rest, a tick before."""
         if not self.rows:
             raise RuntimeError("a recording wants one step at least")
         rows = numpy.array(self.rows, dtype=float)
@@ -98,7 +98,16 @@ class Env(Base):
                 self.task.reads: numpy.concatenate([[self.at_rest] * 2, rows[:, 2]])}
         for i, (name, rest) in enumerate(zip(names, self.episode.resting())):
             data[name] = numpy.concatenate([[rest], rows[:, 3 + i], rows[-1:, 3 + i]])
-        return {"id": id, "data": data} | ({} if self.task.pair else {"load": f"{self.episode.load_kg!r} kg"})
+        load = {} if self.task.pair else {"load": f"{self.episode.load_kg!r} kg"}
+        return {"id": id, "rig": self.episode.rig, **load, **self.episode.columns(), "data": data}
+
+    def scenario(self, controllers, **keys):
+        """The Scenario of this episode's rig, load, target and duration for others to control:
+        env.scenario([{"kind": "pid"}]).run(). `keys`: further ones of scenario files, such as noise={...}. Of a member of
+        a VectorEnv: envs.episodes[i].scenario(...)."""
+        if self.episode is None:
+            raise RuntimeError("reset comes before the first scenario")
+        return self.episode.scenario(controllers, **keys)
 
     @property
     def rig(self):
@@ -151,6 +160,16 @@ class Env(Base):
 
     def close(self):
         """Nothing is kept open."""
+
+
+class PairEnv(Env):
+    """TrackPair-v0: Env with a pair of muscles."""
+
+    def __init__(self, rig="thesis_pair", *args, **keys):
+        super().__init__(rig, *args, **keys)
+        if not self.task.pair:
+            raise ValueError("rig: must have two muscles here; Track-v0 is of one. Pairs are drawn by functions such as "
+                             "lambda random: {**mckibben.env.drawn_rig(random), 'base': 'thesis_pair'}")
 
 
 class VectorEnv(VectorBase):
@@ -307,11 +326,11 @@ class VectorEnv(VectorBase):
 
 
 def _register():
-    several = {"vector_entry_point": "mckibben.env:VectorEnv"}
-    for name, spec in {"Track-v0": several, "TrackDrawn-v0": {**several, "kwargs": {"rig": drawn_rig, "target": drawn_target}},
-                       "TrackPair-v0": {"kwargs": {"rig": "thesis_pair"}}}.items():
+    one = {"entry_point": "mckibben.env:Env", "vector_entry_point": "mckibben.env:VectorEnv"}
+    for name, spec in {"Track-v0": one, "TrackDrawn-v0": {**one, "kwargs": {"rig": drawn_rig, "target": drawn_target}},
+                       "TrackPair-v0": {"entry_point": "mckibben.env:PairEnv"}}.items():
         if f"mckibben/{name}" not in gymnasium.registry:
-            gymnasium.register(id=f"mckibben/{name}", entry_point="mckibben.env:Env", **spec)
+            gymnasium.register(id=f"mckibben/{name}", **spec)
 
 
 if gymnasium is not None:

@@ -3,20 +3,40 @@ import math
 import pathlib
 import tempfile
 
+from ._core import Rig
+
 
 def with_files(source):
-    """A data set's dict in which runs have `file` in place of `data`; the folder of these files, which is gone with
-    `cleanup()`; and of each file the run's place in the list, and the names of its columns."""
+    """A data set's dict in which runs have `file` in place of `data`, and the data set their `rig`; the folder of these
+    files, which is gone with `cleanup()`; and of each file the run's place in the list, and the names of its columns."""
     folder, written = tempfile.TemporaryDirectory(prefix="mckibben-"), {}
     runs = source.get("runs")
     if not isinstance(runs, (list, tuple)):
         return source, folder, written
     try:
+        source, runs = with_rig(source, runs)
         with_file = [in_file(run, i, pathlib.Path(folder.name), written) for i, run in enumerate(runs)]
     except BaseException:
         folder.cleanup()
         raise
     return {**source, "runs": with_file}, folder, written
+
+
+def with_rig(source, runs):
+    """The rig that runs carry is that of a data set without one; with one they are compared with this."""
+    rigs = {i: run["rig"] for i, run in enumerate(runs) if isinstance(run, dict) and "rig" in run}
+    if not rigs:
+        return source, runs
+    if "rig" not in source:
+        if len(rigs) < len(runs):
+            raise ValueError("rig: some runs have one, others none; give the data set `rig`, with which all are compared")
+        for i, rig in rigs.items():
+            if rig != rigs[0] and Rig(rig) != Rig(rigs[0]):
+                raise ValueError(f"runs[{i}].rig: is another one than that of runs[0]; make a Dataset of each, or give the "
+                                 "data set `rig`, with which all are compared")
+        source = {**source, "rig": rigs[0]}
+    return source, [{key: value for key, value in run.items() if key != "rig"} if i in rigs else run
+                    for i, run in enumerate(runs)]
 
 
 def in_file(run, place, folder, written):

@@ -104,7 +104,7 @@ class Task:
             low = [-end for end in high]
         self.observed = numpy.float32([*low, *-ends]), numpy.float32([*high, *ends])
         self.fixed = None
-        rig, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
+        rig, _, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
         if len(drawn) < 2:
             raise ValueError(f"duration_s = {duration_s!r}: must be two ticks at least, of {rig.tick_s:g} s each")
         if isinstance(self.rig, Rig) and isinstance(self.target, dict):
@@ -148,23 +148,25 @@ class Task:
         name = "current" if unit == "mA" else "command"
         return [f"{name}{muscle}_{unit}" for muscle in (("_1", "_2") if self.pair else ("",))]
 
+    def scenario(self, rig, loads_kg, target, controllers, **keys):
+        keys = {"rig": rig, "duration": f"{self.duration_s!r} s", "controllers": controllers, **keys}
+        if self.pair:
+            return Scenario({"targets": [{"angle": target}], **keys})
+        return Scenario({"target": target, "loads": [f"{load!r} kg" for load in loads_kg], **keys})
+
     def draw(self, random, options):
-        """Rig, load [kg] (none of a pair) and target of an episode."""
+        """Rig, load [kg] (none of a pair) and target of an episode: as a scenario has it, and tick by tick."""
         rig = one_of(self.rig, random)
         if callable(self.rig):
             rig = self.made(rig)
         target = one_of(self.target, random)
         load_kg = None if self.pair else float(options.get("load_kg", random.uniform(*self.loads_kg)))
         if self.fixed is not None:
-            return rig, load_kg, self.fixed
-        keys = {"rig": rig, "duration": f"{self.duration_s!r} s"}
-        if self.pair:  # whoever is to follow it: a scenario wants a controller
-            keys.update(targets=[{"angle": target}], controllers=[{"kind": "pid"}])
-        else:
-            unit = rig.command_unit
+            return rig, load_kg, target, self.fixed
+        anybody, unit = {"kind": "pid"}, rig.command_unit  # whoever is to follow it: a scenario wants a controller
+        if not self.pair:
             anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
-            keys.update(target=target, controllers=[anybody], loads=[f"{load!r} kg" for load in sorted(set(self.loads_kg))])
-        return rig, load_kg, Scenario(keys).target
+        return rig, load_kg, target, self.scenario(rig, sorted(set(self.loads_kg)), target, [anybody]).target
 
 
 class Episode:
@@ -172,7 +174,7 @@ class Episode:
 
     def __init__(self, task, random, options):
         self.task, self.random = task, random
-        self.rig, self.load_kg, self.target = task.draw(random, options)
+        self.rig, self.load_kg, self.wish, self.target = task.draw(random, options)
         self.wanted, self.tick_s = self.target.tolist(), self.rig.tick_s
         self.ranges = [self.rig.command_range, self.rig.opposite_command_range][:2 if task.pair else 1]
         self.tick, self.action, self.last = 0, [-1.0] * len(self.ranges), 0.0
@@ -182,6 +184,17 @@ class Episode:
                 keys["mechanics"]["contraction_1"], keys["muscle"]["rest_length"], keys["joint"]["wheel_radius"]))
             self.rad = length_m / radius_m
         self.info = {"time_s": 0.0} if task.pair else {"load_kg": self.load_kg, "time_s": 0.0}
+
+    def scenario(self, controllers, **keys):
+        """The same rig, load, target and time for these controllers."""
+        return self.task.scenario(self.rig, [self.load_kg], self.wish, controllers, **keys)
+
+    def columns(self):
+        """How a data set reads the episode's angle: as counts; a contraction ratio is taken for one by itself."""
+        if not self.task.pair:
+            return {}
+        per_count = self.rig.contraction_per_count * self.rad
+        return {"columns": {"angle": {"column": "angle_rad", "unit": "count", "factor": 1.0 / per_count}}}
 
     def begin(self, counted):
         self.last = self.read(counted)

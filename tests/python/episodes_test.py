@@ -1,0 +1,62 @@
+"""What becomes of an episode: a recording that replays, a scenario that others control."""
+import unittest
+
+import numpy
+
+import mckibben
+import mckibben.env
+from common import main
+
+
+class Episodes(unittest.TestCase):
+    def test_a_recording_replays(self):
+        for rig in ("thesis", "thesis_pair"):
+            env = mckibben.Env(rig, duration_s=1.2)
+            env.reset(seed=1)
+            with self.assertRaisesRegex(RuntimeError, "one step at least"):
+                env.recording()
+            chance = numpy.random.default_rng(2)
+            for _ in range(60):
+                env.step(chance.uniform(-1.0, 1.0, env.action_space.shape))
+            recording = env.recording()
+            replayed = mckibben.Dataset({"runs": [recording]}).replay()[0]
+            reads = env.task.reads
+            numpy.testing.assert_allclose(replayed[f"encoder_{reads}"], recording["data"][reads], rtol=0, atol=1e-9)
+            self.assertLess(max(gap["rmse"] for gap in replayed.gaps.values()), 1e-9)
+            self.assertGreater(abs(numpy.diff(recording["data"][reads])).max(), 1e-3)
+
+    def test_a_recording_carries_its_rig(self):
+        recordings = []
+        for scale in (2.0, 0.5):
+            env = mckibben.Env({"friction": {"scale": scale}}, duration_s=1.2)
+            env.reset(seed=1)
+            while not env.ended:
+                env.step([0.5])
+            recordings.append(env.recording(f"friction_{round(10 * scale)}"))
+        one, other = recordings
+        self.assertEqual(mckibben.Dataset({"runs": [one]}).rig, one["rig"])
+        self.assertLess(mckibben.Dataset({"runs": [one]}).replay()[0].gaps["contraction"]["rmse"], 1e-9)
+        self.assertEqual(mckibben.Dataset({"runs": [one, {**one, "id": "again", "rig": one["rig"].to_dict()}]}).ids, [one["id"], "again"])
+        with self.assertRaisesRegex(ValueError, r"runs\[1\]\.rig: is another one than that of runs\[0\]"):
+            mckibben.Dataset({"runs": [one, other]})
+        without = {key: value for key, value in other.items() if key != "rig"}
+        with self.assertRaisesRegex(ValueError, "rig: some runs have one, others none"):
+            mckibben.Dataset({"runs": [one, without]})
+        both = mckibben.Dataset({"rig": "thesis", "runs": [one, other]})  # as one that does not know their friction
+        self.assertGreater(both.replay()[0].gaps["contraction"]["rmse"], 1e-4)
+
+    def test_others_can_have_its_target(self):
+        for keys, controller in (({"rig": mckibben.env.drawn_rig, "target": mckibben.env.drawn_target}, {"kind": "pid"}),
+                                 ({"rig": "thesis_pair"}, {"kind": "pid"})):
+            env = mckibben.Env(**keys, duration_s=2.4)
+            with self.assertRaisesRegex(RuntimeError, "reset comes before the first scenario"):
+                env.scenario([controller])
+            env.reset(seed=1)
+            scenario = env.scenario([controller], name="mine")
+            self.assertEqual((scenario.name, scenario.rig), ("mine", env.rig))
+            self.assertEqual(scenario.target.tobytes(), env.target.tobytes())
+            if "rig" in keys and keys["rig"] != "thesis_pair":
+                self.assertEqual(scenario.to_dict()["loads"], [f"{env.episode.load_kg!r} kg"])
+
+
+main()
