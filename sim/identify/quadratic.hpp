@@ -64,9 +64,8 @@ struct Quadratic {
   /// First what the slope drives out, then what the step would.
   static void hold(Eigen::MatrixXd& curved, Eigen::VectorXd& slope, const Eigen::VectorXd& at,
                    const Ends& ends) {
-    Eigen::VectorXd way = slope;
-    for (bool more = true; more; way = curved.llt().solve(slope)) {
-      more = false;
+    const auto hold_leaving = [&](const Eigen::VectorXd& way) {
+      bool any = false;
       for (Eigen::Index i = 0; i < at.size(); ++i) {
         if (!((way[i] < 0.0 && at[i] <= ends.lowest[i]) || (way[i] > 0.0 && at[i] >= ends.highest[i])))
           continue;
@@ -75,9 +74,12 @@ struct Quadratic {
         curved.col(i).setZero();
         curved(i, i) = own;
         slope[i] = 0.0;
-        more = true;
+        any = true;
       }
-    }
+      return any;
+    };
+    hold_leaving(Eigen::VectorXd(slope));
+    while (hold_leaving(curved.llt().solve(slope))) continue;
   }
 };
 

@@ -59,7 +59,8 @@ std::string unit_in_heading(std::string_view heading, const domain::Quantity& qu
 std::string command_problem(const std::string& unit) {
   for (const auto& [each, name] : names(plant::CommandUnit{}))
     if (unit_problem(unit, name).empty()) return "";
-  return fmt::format("{} is not a unit of commands; wanted is mA, V or bar", unit);
+  return fmt::format("{} is not a unit of commands; wanted is mA, V or bar{}", unit,
+                     unit == "%" ? ": of a duty the valve's V, unit: V with factor and zero" : "");
 }
 
 std::string problem_of(const domain::Quantity& quantity, const std::string& unit) {

@@ -36,6 +36,7 @@ class ControllerChecker {
       if (const auto* filter = controllers::filter_of(scenario_.controllers[i]))
         check_filter(*filter, *node.find("command_filter")->find("frequency"));
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
+      check_sets_a_pressure(scenario_.controllers[i], *node.find("kind"));
       if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())
         load_believed_rig(name, *node.find("rig"));
@@ -45,6 +46,17 @@ class ControllerChecker {
   }
 
  private:
+  /// Inverses of pressure over contraction.
+  void check_sets_a_pressure(const controllers::Settings& settings, const Node& kind) {
+    if (!scenario_.rig.valve.is_on_off()) return;
+    if (std::holds_alternative<controllers::StaticInverseSettings>(settings) ||
+        controllers::part_of<controllers::CalibrationTerms>(settings) != nullptr)
+      problems_.error(source_, kind.place,
+                      fmt::format("kind = {}: its commands are pressures, and the rig's on_off valve sets a "
+                                  "flow; model_inverse and pid can drive it",
+                                  kind.text));
+  }
+
   void check_filter(const controllers::CommandFilter& filter, const Node& frequency) {
     const double half_Hz = 0.5 / scenario_.rig.tick_s;
     if (filter.frequency_Hz >= half_Hz)

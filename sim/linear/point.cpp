@@ -16,8 +16,9 @@ namespace {
 
 using engine::Linear;
 
-// So little that it only says on which side of a kink the rig stands.
-constexpr double hardly_per_s = 1e-100, hardly_Pa = 1e-6, hardly_open = 1e-6;
+// So little that it only says on which side of a kink the rig stands; a valve opens so little for less than a
+// step of any DAC, where settling ends.
+constexpr double hardly_per_s = 1e-100, hardly_Pa = 1e-6, hardly_open = 1e-4;
 
 /// The slot of an effect's memory.
 template <class Wanted, class... Effect>

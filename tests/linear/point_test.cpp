@@ -142,6 +142,14 @@ TEST(Point, OfAServoValveThatIsShutLiesBetweenFillingAndVenting) {
   EXPECT_NEAR(got / std::abs(response(sampled(point.system(), rig.tick_s), w)), 1.0, 0.05);
 }
 
+/// Where settling ends it is open by less than any step of a command, now this way, now that.
+TEST(Point, OfAServoValveAtRestIsShutEverywhere) {
+  for (const double ratio : {0.10, 0.12, 0.14, 0.15, 0.16})
+    for (const double kg : {14.0, 18.87, 23.406})
+      EXPECT_TRUE(point_at({}, kg, {Place::Of::position, ratio}, Threads::sliding, Opening::both).shut)
+          << ratio << ' ' << kg;
+}
+
 /// Rocking moves the load to where its threads pull neither way, and there the point is.
 TEST(Point, OfThreadsThatStickIsAsRidden) {
   plant::Rig rig;

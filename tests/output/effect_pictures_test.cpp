@@ -44,7 +44,7 @@ TEST(EffectPictures, ThoseOfTheDocumentationAreDrawnNow) {
   EXPECT_GE(effects.size(), 15u);
   for (const std::string& effect : effects)
     EXPECT_TRUE(effect_svg(effect) == checked_in(effect))
-        << "draw docs/effects/" << effect << ".svg again: docs/testing.md, Pictures of effects";
+        << "draw docs/effects/" << effect << ".svg again: mckibben effects --out DIR";
 }
 
 }  // namespace

@@ -45,6 +45,15 @@ class Episodes(unittest.TestCase):
         both = mckibben.Dataset({"rig": "thesis", "runs": [one, other]})  # as one that does not know their friction
         self.assertGreater(both.replay()[0].gaps["contraction"]["rmse"], 1e-4)
 
+    def test_its_scenario_shakes_as_it_does(self):
+        for rig, per in (("thesis", 1.0), ("thesis_pair", None)):
+            env = mckibben.Env(rig, duration_s=1.2, jitter=0.002)
+            env.reset(seed=1)
+            noise = env.scenario([{"kind": "pid"}]).to_dict()["noise"]["encoder_jitter"]
+            self.assertAlmostEqual(noise, 0.002 / (per or env.episode.rad))
+            noise = env.scenario([{"kind": "pid"}], noise={"encoder_jitter": 0.0}).to_dict()["noise"]
+            self.assertEqual(noise["encoder_jitter"], 0.0)
+
     def test_others_can_have_its_target(self):
         for keys, controller in (({"rig": mckibben.env.drawn_rig, "target": mckibben.env.drawn_target}, {"kind": "pid"}),
                                  ({"rig": "thesis_pair"}, {"kind": "pid"})):

@@ -102,7 +102,7 @@ class Env(Base):
         return {"id": id, "rig": self.episode.rig, **load, **self.episode.columns(), "data": data}
 
     def scenario(self, controllers, **keys):
-        """The Scenario of this episode's rig, load, target and duration for others to control:
+        """The Scenario of this episode's rig, load, target, duration and jitter for others to control:
         env.scenario([{"kind": "pid"}]).run(). `keys`: further ones of scenario files, such as noise={...}. Of a member of
         a VectorEnv: envs.episodes[i].scenario(...)."""
         if self.episode is None:

@@ -186,7 +186,10 @@ class Episode:
         self.info = {"time_s": 0.0} if task.pair else {"load_kg": self.load_kg, "time_s": 0.0}
 
     def scenario(self, controllers, **keys):
-        """The same rig, load, target and time for these controllers."""
+        """The same rig, load, target, time and jitter for these controllers."""
+        if self.task.jitter:
+            ratio = self.task.jitter / (self.rad if self.task.pair else 1.0)
+            keys = {"noise": {"encoder_jitter": ratio}, **keys}
         return self.task.scenario(self.rig, [self.load_kg], self.wish, controllers, **keys)
 
     def columns(self):
