@@ -163,8 +163,7 @@ CalibrationResult calibrate(const domain::Dataset& dataset, const Options& optio
   if (dataset.rig.valve.is_on_off())
     refuse(dataset,
            "the rig's valve is on_off, which sets a flow: the thesis's models are of a valve that sets a "
-           "pressure "
-           "(servo, regulator). Controllers with a model of the whole rig (model_inverse) count it");
+           "pressure (servo, regulator). Controllers with a model of the whole rig (model_inverse) count it");
   CalibrationResult result;
   Wrong wrong;
   check_effects(dataset, wrong);
