@@ -12,7 +12,7 @@ class DeviceFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Times are seconds since the beginning, of the clock by which the loop goes.
+/// Times are seconds since tick 0, negative while the rig settles, of the clock by which the loop goes.
 class Device {
  public:
   Device() = default;

@@ -71,7 +71,7 @@ class Loop {
     begin_s_ = clock_.now_s() + plan_.rig.tick_s;
     for (std::int64_t k = begin_; k < plan_.ticks; ++k) {
       const double late_s = wait_for(k);
-      const std::int64_t counts = device_.counts(clock_.now_s());
+      const std::int64_t counts = device_.counts(since_s());
       counts_.look(counts, k, 1 + missed_in_a_row_);
       controller_.show({k, static_cast<double>(k) * plan_.rig.tick_s, counts});
       wanted_mA = controller_.answer([&] {
@@ -81,7 +81,7 @@ class Loop {
       });
       look_at_user();
       const double current_mA = allowed(wanted_mA);
-      device_.put(current_mA, clock_.now_s());
+      device_.put(current_mA, since_s());
       counts_.put(current_mA);
       if (k < 0) continue;
       recorded_.rows.push_back({k, current_mA, counts, late_s});
@@ -93,9 +93,9 @@ class Loop {
   /// A device that is deaf may have thrown away what was waiting, and hear it the second time.
   void vent() {
     try {
-      device_.put(plan_.rig.dac.lowest_command, clock_.now_s());
+      device_.put(plan_.rig.dac.lowest_command, since_s());
     } catch (const DeviceFailure&) {
-      device_.put(plan_.rig.dac.lowest_command, clock_.now_s());
+      device_.put(plan_.rig.dac.lowest_command, since_s());
     }
   }
 
@@ -109,6 +109,9 @@ class Loop {
       if (++looks > most) throw Stop("the controller does not say what it found out");
     };
   }
+
+  /// Time since tick 0.
+  double since_s() const { return clock_.now_s() - at_s(0); }
 
   double at_s(std::int64_t k) const { return begin_s_ + static_cast<double>(k - begin_) * plan_.rig.tick_s; }
 

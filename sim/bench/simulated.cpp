@@ -1,4 +1,6 @@
 // A ride in real time; see the header.
+#include <utility>
+
 #include <sim/bench/simulated.hpp>
 #include <sim/engine/failure.hpp>
 
@@ -8,11 +10,11 @@ Simulated::Simulated(const plant::Rig& rig, double load_kg, const solver::Settin
                      double current_mA)
     : ride_(ride::Loaded{rig, load_kg}, integrator), counter_(rig) {
   drive_.current_mA = current_mA;
-  ride_.start(drive_, 0.0);
 }
 
 void Simulated::move_on(double now_s) {
   constexpr double nothing_s = 1e-9;
+  if (!std::exchange(begun_, true)) ride_.start(drive_, now_s);
   if (now_s - ride_.time_s() < nothing_s) return;
   try {
     ride_.step(drive_, now_s);

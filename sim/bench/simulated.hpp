@@ -1,4 +1,5 @@
-// The bench that is a ride: it moves by as much as the loop's clock does.
+// The bench that is a ride: it moves by as much as the loop's clock does. Periods of a pulse-width modulation
+// begin with tick 0, as in a run.
 #pragma once
 
 #include <plant/instruments.hpp>
@@ -9,7 +10,7 @@ namespace mckibben::bench {
 
 class Simulated final : public Device {
  public:
-  /// At rest under that current.
+  /// At rest under that current, at the first time it hears.
   Simulated(const plant::Rig& rig, double load_kg, const solver::Settings& integrator, double current_mA);
 
   std::int64_t counts(double now_s) override;
@@ -21,6 +22,7 @@ class Simulated final : public Device {
   ride::Ride ride_;
   plant::PositionReader counter_;
   ride::Drive drive_;
+  bool begun_ = false;
 };
 
 }  // namespace mckibben::bench

@@ -86,7 +86,7 @@ int import_tables(const ImportOptions& options) {
   recognise::KnownRig known;
   if (!options.rig.empty()) {
     const plant::Rig rig = input::read_rig(options.rig, read);
-    known = {rig.tick_s, rig.muscle.rest_length_m, rig.holds_a_length(), plant::name_of(rig.command_unit())};
+    known = {rig.tick_s, rig.muscle.rest_length_m, rig.holds_a_length(), rig.valve};
   }
   const auto found = recognise::recognise(tables_of(options.files), !options.rig.empty(), known);
   for (const auto& table : found.tables) read.push_back(table.input);

@@ -344,6 +344,10 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_know
     if (!found.empty() || !may_lack)
       map.columns.push_back(guess_of(domain::quantity_of(quantity), found, others));
     if (!found.empty()) own_clock(table, time, map.columns.back());
+    if (quantity == "command")
+      for (const Named* each : found)
+        if (each->column->name == map.columns.back().column.value)
+          command_of_share(map.columns.back(), each->heading, tables, rig);
     if (quantity == "muscle_pressure" && !found.empty()) zero_of_pressure(map.columns.back(), tables);
   }
   if (time.row_numbers != nullptr)

@@ -34,6 +34,11 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
                    const std::vector<const UnknownTable*>& tables, const Heading& heading,
                    const KnownRig& rig);
 
+/// A command that was recorded as a share, of the valve's range or as a duty: the rig's unit, zero and
+/// factor. Of two valves a duty below 0 vents (sim/ride/switch.cpp).
+void command_of_share(ColumnGuess& command, const Heading& heading,
+                      const std::vector<const UnknownTable*>& tables, const KnownRig& rig);
+
 /// Time as a table seems to hold it.
 struct TimeGuess {
   std::optional<ColumnGuess> guess;            ///< none: no column holds it

@@ -97,6 +97,8 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
   const std::string along = fmt::format("correlation with {} {:.2f}", drive.column.value, found.correlation);
   const bool scale_is_open = contraction.unit.open() || (contraction.factor && contraction.factor->open());
   if (std::abs(found.correlation) < least_correlation) {
+    if (gauge != nullptr && gauge != &drive && !gauge->column.open())  // valves that set a flow
+      return sign_and_zero(contraction, *gauge, gauge, tables, heading, rig);
     const std::string weak = ": too weak to decide its sign; 1 if it grows as the muscle contracts, else -1";
     contraction.factor =
         left_open((contraction.factor ? contraction.factor->reason + "; " : "") + along + weak);

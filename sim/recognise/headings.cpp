@@ -55,7 +55,6 @@ const std::vector<Vocabulary>& vocabularies() {
         "error",
         "err",
         "fehler",
-        "pwm",
         "status",
         "flag",
         "kp",
@@ -125,8 +124,8 @@ const std::vector<Vocabulary>& vocabularies() {
         "stringpot",   "elongation"},
        {"laser", "abstand", "weg", "winkel", "länge", "höhe"}},
       {"command",
-       {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil"},
-       {"strom", "spannung", "ventil"}}};
+       {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil", "duty", "dutycycle", "pwm"},
+       {"strom", "spannung", "ventil", "tastgrad", "tastverhältnis"}}};
   return all;
 }
 
@@ -301,11 +300,13 @@ Heading heading_of(const UnknownColumn& column) {
   const Words words = words_of(split.in_brackets ? split.before : std::string_view(column.heading()));
   std::string_view key;
   std::string told;
+  bool of_the_valve = false;
   for (const Vocabulary& each : vocabularies()) {
     told = each.told_by(words);
     if (told.empty()) continue;
     if (each.key.empty()) return {nullptr, heading.unit, false, told};
     key = each.key;
+    of_the_valve = &each == &vocabularies().back();
     break;
   }
   if (column.is_date) key = "time";
@@ -322,7 +323,8 @@ Heading heading_of(const UnknownColumn& column) {
   if (key.empty()) return {nullptr, heading.unit, false, std::string(no_word)};
   if (!heading.unit.empty() && key == "time" && input::unit_problem(heading.unit, "K").empty())
     return {nullptr, heading.unit, false, "a temperature"};
-  if (key == "command" && is_target_of_another(heading.unit, words))
+  const bool is_share = of_the_valve && heading.unit == "%";
+  if (key == "command" && !is_share && is_target_of_another(heading.unit, words))
     return {nullptr, heading.unit, false, "the target of a position or a force, not a command of the valve"};
   if (key == "force" && !heading.unit.empty() && !is_unit_of(key, heading.unit))
     heading.unit = force_of_mass(heading.unit);

@@ -310,8 +310,8 @@ class Recogniser {
   /// Whether the commands' unit is none of the known rig's valve.
   bool is_commanded_otherwise() const {
     const ColumnGuess* of = command();
-    return of != nullptr && !of->unit.open() && !known_.command_unit.empty() &&
-           !input::unit_problem(of->unit.value, known_.command_unit).empty();
+    return of != nullptr && !of->unit.open() && known_.valve &&
+           !input::unit_problem(of->unit.value, name_of(known_.valve->command_unit)).empty();
   }
 
   /// Time between rows that have no stamps.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <plant/valve.hpp>
 #include <sim/domain/columns.hpp>
 #include <sim/domain/fill_in.hpp>
 #include <sim/recognise/unknown_table.hpp>
@@ -70,7 +71,7 @@ struct Recognised {
 struct KnownRig {
   double tick_s = 0.0, rest_length_m = 0.0;
   bool holds_a_length = false;
-  std::string_view command_unit{};
+  std::optional<plant::Valve> valve{};
 };
 
 /// Reads and understands. `rig_is_known`: nothing is said of it but the range of commands that are in another
