@@ -14,9 +14,9 @@ Simulated::Simulated(const plant::Rig& rig, double load_kg, const solver::Settin
 
 void Simulated::move_on(double now_s) {
   constexpr double nothing_s = 1e-9;
-  if (!std::exchange(begun_, true)) ride_.start(drive_, now_s);
-  if (now_s - ride_.time_s() < nothing_s) return;
   try {
+    if (!std::exchange(begun_, true)) ride_.start(drive_, now_s);
+    if (now_s - ride_.time_s() < nothing_s) return;
     ride_.step(drive_, now_s);
   } catch (const engine::NumericalFailure& failure) {
     throw DeviceFailure(failure.what());

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <sim/input/column_hints.hpp>
 #include <sim/recognise/columns.hpp>
 #include <sim/recognise/headings.hpp>
 
@@ -11,27 +10,20 @@ namespace mckibben::recognise {
 
 void command_of_share(ColumnGuess& command, const Heading& heading,
                       const std::vector<const UnknownTable*>& tables, const KnownRig& rig) {
-  static const std::vector<std::string> duties{"duty", "dutycycle", "pwm", "tastgrad", "tastverhältnis"};
-  const input::Words words = input::words_of(command.column.value);
-  const bool is_duty = std::ranges::any_of(
-      words, [](const std::string& word) { return std::ranges::find(duties, word) != duties.end(); });
   if (command.column.open() || !command.unit.open() || command.factor ||
-      !(heading.unit == "%" || (is_duty && heading.unit.empty())))
+      !(heading.unit == "%" || (heading.is_duty && heading.unit.empty())))
     return;
-  if (!rig.valve || rig.valve->seals() || (is_duty && !rig.valve->is_on_off())) {
-    command.unit = left_open(is_duty ? "a duty; with --rig, of a rig whose valve is on_off, it is found"
-                                     : "a share of the valve's range: with --rig it is found");
+  if (!rig.valve || rig.valve->seals() || (heading.is_duty && !rig.valve->is_on_off())) {
+    command.unit =
+        left_open(heading.is_duty ? "a duty; with --rig, of a rig whose valve is on_off, it is found"
+                                  : "a share of the valve's range: with --rig it is found");
     return;
   }
-  double low = 0.0, high = 0.0;
-  for (const UnknownTable* table : tables)
-    if (const Values* values = column_of(*table, command.column.value)) {
-      const Range own = range_of(*values);
-      low = std::min(low, own.low);
-      high = std::max(high, own.high);
-    }
+  const auto readings = readings_of(tables, command.column.value);
+  if (!readings) return;
+  const double low = std::min(readings->range.low, 0.0);
   constexpr double percent = 100.0, eight_bits = 255.0;
-  const double most = std::max(high, -low);
+  const double most = std::max(readings->range.high, -low);
   double whole = most <= 1.0 ? 1.0 : most <= percent ? percent : eight_bits;
   if (heading.unit == "%") whole = percent;
   if (most > whole) return;
@@ -40,7 +32,7 @@ void command_of_share(ColumnGuess& command, const Heading& heading,
   const double of_whole = (valve.span_command - valve.zero_command) / (two ? 2.0 : 1.0);
   const double at_0 = valve.zero_command + (two ? of_whole : 0.0);
   const std::string reason = fmt::format(
-      "{} is the rig's whole {}{}", whole, is_duty ? "duty" : "range",
+      "{} is the rig's whole {}{}", whole, heading.is_duty ? "duty" : "range",
       !two        ? ""
       : low < 0.0 ? ": it fills above 0, vents below"
                   : ": it fills above 0 and nothing vents; where another column vents, write one of both, "

@@ -20,7 +20,8 @@ using input::words_of, input::Words;
 struct Vocabulary {
   std::string_view key;
   Words words;
-  Words stems{};  ///< that German begins or ends a word with: Sollspannung, Muskeldruck
+  Words stems{};              ///< that German begins or ends a word with: Sollspannung, Muskeldruck
+  bool of_the_valve = false;  ///< a percentage there is of the valve's range, not of the muscle's length
 
   /// The first word that tells, and by which of these; empty if none does.
   std::string told_by(const Words& heading) const {
@@ -33,6 +34,12 @@ struct Vocabulary {
     return {};
   }
 };
+
+/// Of valves that a duty drives.
+const Vocabulary& duties() {
+  static const Vocabulary all{"command", {"duty", "dutycycle", "pwm"}, {"tastgrad", "tastverhältnis"}, true};
+  return all;
+}
 
 /// What is asked first wins: a set pressure is a command, whatever its unit.
 const std::vector<Vocabulary>& vocabularies() {
@@ -124,8 +131,10 @@ const std::vector<Vocabulary>& vocabularies() {
         "stringpot",   "elongation"},
        {"laser", "abstand", "weg", "winkel", "länge", "höhe"}},
       {"command",
-       {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil", "duty", "dutycycle", "pwm"},
-       {"strom", "spannung", "ventil", "tastgrad", "tastverhältnis"}}};
+       {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil"},
+       {"strom", "spannung", "ventil"},
+       true},
+      duties()};
   return all;
 }
 
@@ -306,7 +315,7 @@ Heading heading_of(const UnknownColumn& column) {
     if (told.empty()) continue;
     if (each.key.empty()) return {nullptr, heading.unit, false, told};
     key = each.key;
-    of_the_valve = &each == &vocabularies().back();
+    of_the_valve = each.of_the_valve;
     break;
   }
   if (column.is_date) key = "time";
@@ -343,6 +352,7 @@ Heading heading_of(const UnknownColumn& column) {
   static const Vocabulary contractions{
       "contraction", {"contraction", "contracción", "contração", "contrazione"}, {"kontraktion"}};
   heading.is_contraction = !contractions.told_by(words).empty();
+  heading.is_duty = !duties().told_by(words).empty();
   return heading;
 }
 

@@ -19,6 +19,7 @@ struct Heading {
   std::string reason;                          ///< which words tell
   bool is_length = false;                      ///< the muscle's, which falls as it contracts
   bool is_contraction = false;                 ///< which rises as the muscle contracts
+  bool is_duty = false;                        ///< of valves that are open or shut
   std::string other_unit{};  ///< the heading says another one than the line below it; empty: it does not
   std::string unknown{};     ///< in its brackets, and no unit that is known; empty: nothing
   std::string times{};  ///< of ten by which its numbers are scaled, as `x10` in `p x10 [bar]`; empty: none

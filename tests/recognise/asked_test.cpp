@@ -10,33 +10,11 @@
 #include <sim/recognise/headings.hpp>
 #include <sim/recognise/recognise.hpp>
 
+#include "asked_fixture.hpp"
 #include "says.hpp"
-#include "scratch.hpp"
 
 namespace mckibben::recognise {
 namespace {
-
-class Asked : public ::testing::Test {
- protected:
-  /// Of a table of 200 rows: `row(k)` is a line.
-  Recognised of(const std::string& head, const auto& row, const std::string& name = "5kg.csv",
-                const KnownRig& rig = {}) const {
-    std::string text = head;
-    for (int k = 0; k < 200; ++k) text += row(k) + "\n";
-    return recognise({folder_.write(name, text)}, true, rig);
-  }
-  static double drive(int k) { return 0.5 - 0.5 * std::cos(0.03 * k); }
-  static const ColumnGuess& column(const Recognised& found, const char* key) {
-    return *found.maps[0].find(key);
-  }
-  static std::string start(const Recognised& found) {
-    for (const Setting& each : found.dataset)
-      if (each.key == "start") return each.told.value;
-    return "";
-  }
-
-  Scratch folder_;
-};
 
 TEST_F(Asked, ASignMayStandBeforeDecimalsOrBetweenThousands) {
   const auto pascals = [](const char* time, const char* sign) {
@@ -394,43 +372,6 @@ TEST_F(Asked, ExportsThatKnowNoOrderAreSorted) {
   });
   EXPECT_TRUE(std::ranges::is_sorted(in_ms.tables[0].columns[0].values)) << "no milliseconds of a second";
   EXPECT_DOUBLE_EQ(in_ms.tables[0].columns[0].values.back(), 12.0 * 199);
-}
-
-TEST_F(Asked, ADutyIsOfTheRigsValve) {
-  const auto signed_duty = [](int k) {
-    return fmt::format("{},{:.1f},{:.3f},{:.3f}", 12 * k, k < 100 ? 80.0 : -40.0, drive(k), 20 * drive(k));
-  };
-  const std::string head = "t [ms],duty [%],p [bar],x [mm]\n";
-  EXPECT_TRUE(holds(column(of(head, signed_duty), "command").unit.reason, "--rig", "on_off"));
-
-  KnownRig rig{.tick_s = 0.012, .rest_length_m = 0.3, .valve = plant::Valve{}};
-  plant::Valve& valve = *rig.valve;
-  EXPECT_TRUE(column(of(head, signed_duty, "5kg.csv", rig), "command").unit.open()) << "a servo valve";
-  valve.kind = plant::ValveKind::on_off;
-  valve.command_unit = plant::CommandUnit::V;
-  valve.zero_command = 1.0;
-  valve.span_command = 9.0;
-  const auto brought = [&](const Recognised& found) {
-    return shown(found.tables[0], column(found, "command"));
-  };
-  // 80 % fills, 40 % vents: |2s - 1| of the way s from 1 to 9 V.
-  const Recognised two = of(head, signed_duty, "5kg.csv", rig);
-  EXPECT_EQ(column(two, "command").unit.value, "V");
-  EXPECT_NEAR(brought(two)[0], 1.0 + 0.9 * 8.0, 1e-9);
-  EXPECT_NEAR(brought(two)[150], 1.0 + 0.3 * 8.0, 1e-9);
-  EXPECT_FALSE(column(two, "contraction").factor) << "it goes with the gauge, not with a flow";
-  valve.ports = plant::Ports::three;
-  const auto bits = [](int k) { return fmt::format("{},{},{:.3f}", 12 * k, k < 100 ? 255 : 51, drive(k)); };
-  const Recognised three = of("t [ms],pwm,p [bar]\n", bits, "5kg.csv", rig);
-  EXPECT_NEAR(brought(three)[0], 9.0, 1e-9);
-  EXPECT_NEAR(brought(three)[150], 1.0 + 0.2 * 8.0, 1e-9);
-  EXPECT_TRUE(holds(column(three, "command").factor->reason, "255"));
-
-  const auto fills = [](int k) { return fmt::format("{},{},{:.3f}", 12 * k, k < 100 ? 0.5 : 0.0, drive(k)); };
-  valve.ports = plant::Ports::two;
-  const Recognised one_way = of("t [ms],duty,p [bar]\n", fills, "5kg.csv", rig);
-  EXPECT_TRUE(holds(column(one_way, "command").factor->reason, "filling less venting"));
-  EXPECT_NEAR(brought(one_way)[0], 1.0 + 0.75 * 8.0, 1e-9);
 }
 
 }  // namespace
