@@ -22,26 +22,33 @@ void command_of_share(ColumnGuess& command, const Heading& heading,
   const auto readings = readings_of(tables, command.column.value);
   if (!readings) return;
   const double low = std::min(readings->range.low, 0.0);
-  constexpr double percent = 100.0, eight_bits = 255.0;
   const double most = std::max(readings->range.high, -low);
-  double whole = most <= 1.0 ? 1.0 : most <= percent ? percent : eight_bits;
-  if (heading.unit == "%") whole = percent;
-  if (most > whole) return;
   const plant::Valve& valve = *rig.valve;
   const bool two = valve.is_on_off() && valve.ports == plant::Ports::two;
   const double of_whole = (valve.span_command - valve.zero_command) / (two ? 2.0 : 1.0);
   const double at_0 = valve.zero_command + (two ? of_whole : 0.0);
+  const std::string unit(name_of(valve.command_unit));
+  const auto factor = [&](double whole) { return fmt::format("{:.12g}", of_whole / whole); };
+  const auto zero = [&](double whole) { return fmt::format("{:.12g}", 0.0 - at_0 * whole / of_whole); };
+  constexpr double percent = 100.0, eight_bits = 255.0;
+  if (heading.unit != "%" && ((most > 1.0 && most <= percent) || most > eight_bits)) {
+    command.unit = left_open(fmt::format(
+        "its numbers go to {:g}: unit: {}, and if {} is the whole factor: {}, zero: {}; if {}, factor: {}, "
+        "zero: {}",
+        most, unit, percent, factor(percent), zero(percent), eight_bits, factor(eight_bits),
+        zero(eight_bits)));
+    return;
+  }
+  const double whole = heading.unit == "%" ? percent : most <= 1.0 ? 1.0 : eight_bits;
   const std::string reason = fmt::format(
       "{} is the rig's whole {}{}", whole, heading.is_duty ? "duty" : "range",
       !two        ? ""
       : low < 0.0 ? ": it fills above 0, vents below"
                   : ": it fills above 0 and nothing vents; where another column vents, write one of both, "
                     "filling less venting");
-  command.unit = {std::string(name_of(valve.command_unit)), "the rig's valve takes it"};
-  command.factor = {fmt::format("{:.12g}", of_whole / whole), reason};
-  if (at_0 != 0.0)
-    command.zero = {fmt::format("{:.12g}", -at_0 * whole / of_whole),
-                    fmt::format("what stands for 0 {}", command.unit.value)};
+  command.unit = {unit, "the rig's valve takes it"};
+  command.factor = {factor(whole), reason};
+  if (at_0 != 0.0) command.zero = {zero(whole), fmt::format("what stands for 0 {}", unit)};
 }
 
 }  // namespace mckibben::recognise

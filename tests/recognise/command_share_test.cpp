@@ -47,5 +47,26 @@ TEST_F(Asked, ADutyIsOfTheRigsValve) {
   EXPECT_NEAR(brought(one_way)[0], 1.0 + 0.75 * 8.0, 1e-9);
 }
 
+TEST_F(Asked, AStatedPercentIsOneAndAnUnstatedOneIsAsked) {
+  KnownRig rig{.tick_s = 0.012, .rest_length_m = 0.3, .valve = plant::Valve{}};
+  rig.valve->kind = plant::ValveKind::on_off;
+  rig.valve->command_unit = plant::CommandUnit::V;
+  rig.valve->zero_command = 0.0;
+  rig.valve->span_command = 10.0;
+  const auto rows = [](double most) {
+    return [=](int k) { return fmt::format("{},{},{:.3f}", 12 * k, k < 100 ? -40.0 : most, drive(k)); };
+  };
+  for (const char* heading : {"duty_%", "duty [%]", "duty (%)"})  // one reading is above the whole
+    EXPECT_EQ(column(of(fmt::format("t_ms,{},p_bar\n", heading), rows(102.0), "5kg.csv", rig), "command")
+                  .factor->value,
+              "0.05")
+        << heading;
+  for (const double most : {77.0, 300.0}) {  // percent, eight bits, or neither
+    const Recognised found = of("t_ms,pwm,p_bar\n", rows(most), "5kg.csv", rig);
+    EXPECT_TRUE(column(found, "command").unit.open()) << most;
+    EXPECT_TRUE(holds(column(found, "command").unit.reason, "zero: -100", "zero: -255"));
+  }
+}
+
 }  // namespace
 }  // namespace mckibben::recognise
