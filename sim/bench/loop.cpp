@@ -70,8 +70,8 @@ class Loop {
     });
     begin_s_ = clock_.now_s() + plan_.rig.tick_s;
     for (std::int64_t k = begin_; k < plan_.ticks; ++k) {
-      const double late_s = wait_for(k);
-      const std::int64_t counts = device_.counts(since_s());
+      const double late_s = wait_for(k), read_s = since_s();
+      const std::int64_t counts = device_.counts(read_s);
       counts_.look(counts, k, 1 + missed_in_a_row_);
       controller_.show({k, static_cast<double>(k) * plan_.rig.tick_s, counts});
       wanted_mA = controller_.answer([&] {
@@ -81,10 +81,11 @@ class Loop {
       });
       look_at_user();
       const double current_mA = allowed(wanted_mA);
-      device_.put(current_mA, since_s());
+      const double sent_s = since_s();
+      device_.put(current_mA, sent_s);
       counts_.put(current_mA);
       if (k < 0) continue;
-      recorded_.rows.push_back({k, current_mA, counts, late_s});
+      recorded_.rows.push_back({k, current_mA, counts, read_s, sent_s, late_s});
       plan_.record(recorded_.rows.back());
     }
     wait_for(plan_.ticks);  // the last current has its tick, too

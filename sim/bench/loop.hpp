@@ -20,9 +20,10 @@ namespace mckibben::bench {
 
 struct Row {
   std::int64_t tick;
-  double current_mA;  ///< from this tick on, as the DAC gives it
+  double current_mA;  ///< as the DAC gives it
   std::int64_t counts;
-  double late_s;  ///< by which the tick began after its time
+  double read_s, sent_s;  ///< when the counts were read and the command went out, since tick 0
+  double late_s;          ///< by which the tick began after its time
 };
 
 struct LoopPlan {

@@ -29,8 +29,11 @@ std::int64_t Simulated::counts(double now_s) {
 }
 
 void Simulated::put(double current_mA, double now_s) {
-  move_on(now_s);
+  if (was_put_) move_on(now_s);
   drive_.current_mA = current_mA;
+  if (std::exchange(was_put_, true)) return;
+  begun_ = false;
+  move_on(now_s);
 }
 
 }  // namespace mckibben::bench

@@ -10,7 +10,7 @@ namespace mckibben::bench {
 
 class Simulated final : public Device {
  public:
-  /// At rest under that current, at the first time it hears.
+  /// At rest under that current; the first command begins at rest under its own, as a run does.
   Simulated(const plant::Rig& rig, double load_kg, const solver::Settings& integrator, double current_mA);
 
   std::int64_t counts(double now_s) override;
@@ -22,7 +22,7 @@ class Simulated final : public Device {
   ride::Ride ride_;
   plant::PositionReader counter_;
   ride::Drive drive_;
-  bool begun_ = false;
+  bool begun_ = false, was_put_ = false;
 };
 
 }  // namespace mckibben::bench

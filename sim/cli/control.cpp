@@ -191,19 +191,25 @@ std::string column_of(const Scenario& scenario) {
 }
 
 std::string head_of(const Scenario& scenario) {
-  return fmt::format("time_s,{},contraction_ratio,counts,target,late_ms\n", column_of(scenario));
+  return fmt::format("time_s,{},contraction_ratio,counts,target,late_ms,read_s,sent_s\n",
+                     column_of(scenario));
 }
 
 std::string line_of(const bench::Row& row, const controllers::Knowledge& known) {
-  return fmt::format("{},{},{},{},{},{:.3f}\n", run::tidy_s(static_cast<double>(row.tick) * known.tick_s),
-                     row.current_mA, static_cast<double>(row.counts) * known.contraction_per_count,
-                     row.counts, known.target_at(row.tick), 1e3 * row.late_s);
+  return fmt::format("{},{},{},{},{},{:.3f},{:.6f},{:.6f}\n",
+                     run::tidy_s(static_cast<double>(row.tick) * known.tick_s), row.current_mA,
+                     static_cast<double>(row.counts) * known.contraction_per_count, row.counts,
+                     known.target_at(row.tick), 1e3 * row.late_s, row.read_s, row.sent_s);
 }
 
-/// What goes with the rows: they are a data set of a rig with all that the scenario's has.
+/// What goes with the rows: they are a data set of a rig with all that the scenario's has. Ticks begin late:
+/// what counts is when each reading was taken and each command went out.
 template <class Folder>
 void describe(Folder& folder, const Scenario& scenario) {
   Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
+  dataset["columns"]["command"] = {
+      {"column", column_of(scenario)}, {"unit", name_of(scenario.rig.command_unit())}, {"time", "sent_s"}};
+  dataset["columns"]["contraction"] = {{"column", "counts"}, {"unit", "count"}, {"time", "read_s"}};
   dataset["runs"] = Json::array({Json{{"id", "bench"},
                                       {"file", "bench.csv"},
                                       {"load", domain::write_number(scenario.loads_kg.front()) + " kg"}}});

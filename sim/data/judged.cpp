@@ -21,9 +21,11 @@ constexpr double straight = 5e-3;        // of an input's range: it neither jump
 constexpr double outlying = 6.0;         // deviations
 constexpr double apart = 1e-6;           // of a row: nearer instants are one, but for rounding
 
-double median_gap_s(const std::vector<double>& time_s) {
-  std::vector<double> gaps;
-  for (std::size_t k = 1; k < time_s.size(); ++k) gaps.push_back(time_s[k] - time_s[k - 1]);
+double median_gap_s(const Measurement& measured) {
+  std::vector<double> stamps_s, gaps;
+  for (std::size_t k = 0; k < measured.time_s.size(); ++k)
+    if (measured.has_row(k)) stamps_s.push_back(measured.time_s[k]);
+  for (std::size_t k = 1; k < stamps_s.size(); ++k) gaps.push_back(stamps_s[k] - stamps_s[k - 1]);
   return gaps.empty() ? even_row_s : upper_median(std::move(gaps));
 }
 
@@ -37,7 +39,7 @@ class Judging {
     if (raw_.gives_length()) leave_out_slack();
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
     raw_.filled_Pa = first_pressure_Pa(raw_);
-    fast_ = row_s_ / median_gap_s(raw_.time_s) >= enough_readings && !raw_.counted;
+    fast_ = row_s_ / median_gap_s(raw_) >= enough_readings && !raw_.counted;
     Measurement driving = fast_ ? thinned() : as_recorded();
     judge(driving);
     shake(driving);
@@ -85,10 +87,11 @@ class Judging {
     same.time_s = raw_.time_s;
     std::erase_if(same.columns = raw_.columns, [](const MeasuredColumn& column) { return !column.given; });
     const bool each = !raw_.counted || raw_.gives_length();
+    const double least_s = row_s_ - 0.5 * median_gap_s(raw_);
     double last_s = begin_s() + raw_.recorded.skip_s - row_s_;
     for (std::size_t k = 0; k < raw_.time_s.size(); ++k) {
-      const bool counts_each = each || raw_.time_s[k] - last_s >= 0.999 * row_s_;
-      if (raw_.time_s[k] - begin_s() < raw_.recorded.skip_s || !counts_each) continue;
+      const bool counts_each = each || raw_.time_s[k] - last_s >= least_s;
+      if (raw_.time_s[k] - begin_s() < raw_.recorded.skip_s || !counts_each || !raw_.has_row(k)) continue;
       last_s = raw_.time_s[k];
       same.rows.push_back(k);
     }
@@ -326,8 +329,7 @@ class Judging {
 /// Between the rows of the whole data set.
 double row_s_of(const domain::Dataset& data) {
   double slowest_s = 0.0;
-  for (const domain::Run& run : data.runs)
-    slowest_s = std::max(slowest_s, median_gap_s(run.measured->time_s));
+  for (const domain::Run& run : data.runs) slowest_s = std::max(slowest_s, median_gap_s(*run.measured));
   return slowest_s * enough_readings > even_row_s ? slowest_s : even_row_s;
 }
 

@@ -128,9 +128,10 @@ double points_noise(const std::vector<double>& read, const std::vector<std::vect
 
 double step_of(const std::vector<double>& values) {
   std::vector<double> moves;
-  double least = 0.0;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const double move = std::abs(values[k] - values[k - 1]);
+  double least = 0.0, before = std::nan("");
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    const double move = std::abs(value - std::exchange(before, value));
     if (std::isnan(move) || move < 1e-12) continue;
     moves.push_back(move);
     least = least == 0.0 ? move : std::min(least, move);

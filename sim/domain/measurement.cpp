@@ -44,6 +44,12 @@ const std::vector<double>& Measurement::values(std::string_view key, std::size_t
   return at != columns.end() ? at->values : nothing;
 }
 
+bool Measurement::has_row(std::size_t stamp) const {
+  return !own_clocks || std::ranges::any_of(columns, [&](const MeasuredColumn& column) {
+    return !column.is_command() && (column.given || !std::isnan(column.values[stamp]));
+  });
+}
+
 bool Measurement::reads_only_pressures() const {
   bool any = false;
   for (const MeasuredColumn& column : columns)

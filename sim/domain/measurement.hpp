@@ -73,6 +73,7 @@ struct Measurement {
   std::vector<MeasuredColumn> columns;  ///< each signal at most once
   bool angle_in_degrees = false;        ///< as the file has it, and as its gap is told
   bool counted = false;                 ///< contraction or angle are counts of the encoder
+  bool own_clocks = false;              ///< of columns: at many stamps only some have a value
   Recorded recorded{};
   std::vector<std::size_t> rows{};  ///< stamps that are judged, ascending; none: all
   std::optional<double>
@@ -89,6 +90,8 @@ struct Measurement {
   std::vector<double>& give(std::string_view key, std::size_t muscle = 0);
   std::vector<double>& take(std::string_view key, std::size_t muscle = 0);
 
+  /// False where a command has a stamp of its own, and nothing is read.
+  bool has_row(std::size_t stamp) const;
   bool gives_length() const { return gives("contraction"); }
   /// What of a muscle's pressure there is upstream of it: its own, that of its valve, or none.
   plant::GivenPressure given_pressure(std::size_t muscle = 1) const;

@@ -128,13 +128,6 @@ bool goes_on(const Table& table, const ColumnMap& map) {
          });
 }
 
-bool has_own_clocks(const ColumnMap& map) {
-  return std::ranges::any_of(domain::quantities(), [&](const domain::Quantity& quantity) {
-    const ColumnPlace& place = map[quantity];
-    return !place.absent() && (!place.time.empty() || !place.where.absent());
-  });
-}
-
 std::string list_of(const Table& table, const std::vector<std::size_t>& parts,
                     const TableProblems& problems) {
   std::string text;
@@ -145,6 +138,13 @@ std::string list_of(const Table& table, const std::vector<std::size_t>& parts,
 }
 
 }  // namespace
+
+bool has_own_clocks(const ColumnMap& map) {
+  return std::ranges::any_of(domain::quantities(), [&](const domain::Quantity& quantity) {
+    const ColumnPlace& place = map[quantity];
+    return !place.absent() && (!place.time.empty() || !place.where.absent());
+  });
+}
 
 std::vector<WantedColumn> wanted_besides(const ColumnMap& map, const Run& run) {
   std::vector<WantedColumn> wanted;

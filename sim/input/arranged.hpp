@@ -10,6 +10,9 @@
 
 namespace mckibben::input {
 
+/// Whether quantities have a clock, or rows, of their own.
+bool has_own_clocks(const domain::ColumnMap& map);
+
 /// What has to be read besides the quantities: columns that `where` and `cut` name, clocks of single
 /// quantities.
 std::vector<WantedColumn> wanted_besides(const domain::ColumnMap& map, const domain::Run& run);

@@ -141,7 +141,7 @@ namespace {
 /// Stamps of a quantity that has its own, in seconds as those of all.
 void convert_own_clock(Table& table, const domain::Quantity& quantity, const ColumnPlace& time) {
   Table::Column* own = table.find("time of " + quantity.key);
-  if (own == nullptr) return;
+  if (own == nullptr || time.absent()) return;  // under our name it is in seconds
   for (double& value : own->values) value = (value - time.zero) * time.factor;
   convert_units(own->values, time.unit, "s");
 }

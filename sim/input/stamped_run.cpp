@@ -9,6 +9,7 @@
 
 #include <sim/data/plausible.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/input/arranged.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/stamped_run.hpp>
@@ -96,6 +97,7 @@ class Assembling {
                           [](const auto& column) { return !column.is_pressure(); });
     measured_.angle_in_degrees = map_["angle"].unit == "deg";
     measured_.counted = map_[rig_.has_angle() ? "angle" : "contraction"].unit == "count";
+    measured_.own_clocks = has_own_clocks(map_);
     beginning();
     return std::move(measured_);
   }

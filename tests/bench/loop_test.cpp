@@ -2,10 +2,12 @@
 // is a test's, so no machine is too slow for it.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +20,7 @@
 #include <sim/bench/serial.hpp>
 #include <sim/bench/simulated.hpp>
 #include <sim/run/batch.hpp>
+#include <sim/run/follow.hpp>
 #include <sim/run/simulate.hpp>
 
 #include "board.hpp"
@@ -132,6 +135,8 @@ TEST(Loop, VentsOnceMoreTicksInARowAreMissedThanMayBe) {
   EXPECT_EQ(late.missed_ticks, 3);
   EXPECT_EQ(late.rows.size(), 20U);
   EXPECT_NEAR(late.rows[4].late_s, 3.5 * tick_s, 1e-9);
+  EXPECT_NEAR(late.rows[4].read_s, 7.5 * tick_s, 1e-9);
+  EXPECT_EQ(late.rows[4].sent_s, late.rows[4].read_s) << "its clock stands still meanwhile";
   Told many;
   const Recorded stopped = driven(many, 9.0, plan(20), Sleepy(10 * tick_s, 9.5 * tick_s));
   EXPECT_TRUE(stopped.stopped.starts_with("watchdog: 4 ticks of 12 ms in a row were missed, up to tick 7;"))
@@ -186,6 +191,56 @@ TEST(SimulatedBench, IsTheRunThatIsSimulated) {
     }
     EXPECT_GT(recorded.rows.back().counts, 200);
   }
+}
+
+/// A busy machine's: it wakes late, and whatever is done takes a while.
+class Busy final : public Clock {
+ public:
+  double now_s() override { return now_s_ += 3e-4 * at_random_(random_); }
+  void wait_until(double time_s) override {
+    now_s_ = std::max(now_s_, time_s) + 6e-3 * std::pow(at_random_(random_), 4);
+  }
+
+ private:
+  double now_s_ = 0.0;
+  std::mt19937 random_{5};
+  std::uniform_real_distribution<double> at_random_{0.0, 1.0};
+};
+
+TEST(SimulatedBench, ReplaysFromTheInstantsOfABusyMachine) {
+  LoopPlan all = plan(300);
+  plant::Valve& modulated = all.rig.valve;
+  modulated.kind = plant::ValveKind::on_off;
+  modulated.switching = plant::Switching::pwm;
+  modulated.pwm_frequency_Hz = 50.0;
+  modulated.resolve();
+  all.load_kg = 16.0;
+  Simulated bench(all.rig, all.load_kg, {}, plant::dac_output_mA(all.rig.dac, 4.0));
+  Busy clock;
+  auto controller = pid().make(run::knowledge_of(all.rig, std::vector<double>(300, 0.1)));
+  const std::vector<Row> rows = drive(bench, std::move(controller), all, clock).rows;
+  ASSERT_EQ(rows.size(), 300U);
+
+  run::Course sent, ticks;
+  for (const Row& row : rows) {
+    const auto hold = [&](run::Course& course, double at_s, double current_mA) {
+      course.time_s.push_back(at_s);
+      course.drives.emplace_back().current_mA = current_mA;
+    };
+    for (run::Course* course : {&sent, &ticks}) course->rows.push_back(course->time_s.size());
+    hold(sent, row.read_s, sent.drives.empty() ? row.current_mA : sent.drives.back().current_mA);
+    hold(sent, row.sent_s, row.current_mA);
+    hold(ticks, static_cast<double>(row.tick) * all.rig.tick_s, row.current_mA);
+  }
+  const auto off = [&](const run::Course& course) {
+    const run::Recording replayed = run::follow(all.rig, all.load_kg, course);
+    std::int64_t most = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      most = std::max(most, std::abs(replayed.samples[k].counts - rows[k].counts));
+    return most;
+  };
+  EXPECT_EQ(off(sent), 0);
+  EXPECT_GT(off(ticks), 2);
 }
 
 TEST(SimulatedBench, IsBelievedWithAnyLoad) {

@@ -93,6 +93,21 @@ TEST(Control, ASimulatedBenchLeavesADataSetThatReplays) {
   EXPECT_EQ(read_text(scratch / "out/b-control.old-1/bench.csv"), recorded);
 }
 
+TEST(Control, AReplayKnowsWhenEachCommandWentOut) {
+  const Scratch scratch;
+  std::string text = on_bench;
+  text.replace(text.find("settling_time"), 0,
+               "valve: {kind: on_off, switching: pwm, pwm_frequency: 50 Hz, zero_command: 0 V, "
+               "span_command: 10 V}, ");
+  text.replace(text.find("60 mA"), 5, "60 V, rest_command: 5 V");
+  write_text(scratch / "b.yaml", text);
+  ASSERT_EQ(mckibben("control b.yaml --most-missed 1000", scratch).status, 0);
+  const Said said = mckibben("replay out/b-control --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const Json gap = Json::parse(said.out).at("runs").at(0).at("gaps").at(0);
+  EXPECT_LT(gap.at("rmse").get<double>(), 0.03) << "mm, however busy the machine is";
+}
+
 TEST(Control, LeavesOutNoEffectOfItsRig) {
   const Scratch scratch;
   std::string text(on_bench);

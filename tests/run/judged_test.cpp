@@ -116,6 +116,29 @@ TEST(Judged, AGivenPressureIsSmoothedWhereItIsReadFast) {
   EXPECT_NEAR(rms(shaken), rms(squares), 0.2 * rms(squares));  // as much again
 }
 
+TEST(Judged, ACommandsOwnStampsAreNoRows) {
+  domain::Dataset data = recorded(1.0 / 0.012, false);
+  domain::Measurement& measured = *data.runs[0].measured;
+  domain::Measurement merged = measured;  // each command goes out 2 ms after the reading before it
+  merged.own_clocks = true;
+  merged.time_s.clear();
+  for (auto& column : merged.columns) column.values.clear();
+  const std::size_t readings = measured.time_s.size() - 1;
+  for (std::size_t k = 0; k < readings; ++k)
+    for (const double late_s : {0.0, 0.002}) {
+      merged.time_s.push_back(measured.time_s[k] + late_s);
+      merged.take("contraction").push_back(late_s == 0.0 ? measured.read("contraction")[k] : std::nan(""));
+      merged.give("command").push_back(measured.given("command")[late_s == 0.0 && k > 0 ? k - 1 : k]);
+    }
+  measured = merged;
+  data = with_rows(std::move(data));
+  EXPECT_NEAR(data.row_s(), 0.012, 1e-3);
+  EXPECT_EQ(data.rows_of_stamps->stamps, 2 * readings);
+  EXPECT_EQ(data.runs[0].contraction_ratio.size(), readings);
+  EXPECT_EQ(std::ranges::count(data.runs[0].missing, true), 0);
+  EXPECT_EQ(data.runs[0].measured->time_s, merged.time_s) << "commands act from their stamps on";
+}
+
 TEST(Judged, AGaugeOnTheValveHasANoiseOfItsOwn) {
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
