@@ -57,6 +57,17 @@ bool names_time(std::string_view heading) {
   });
 }
 
+const Words duty_words{"duty", "dutycycle", "pwm"}, duty_stems{"tastgrad", "tastverhältnis"};
+
+bool names_duty(std::string_view heading) {
+  return std::ranges::any_of(words_of(heading), [](const std::string& word) {
+    return std::ranges::find(duty_words, word) != duty_words.end() ||
+           std::ranges::any_of(duty_stems, [&](const std::string& stem) {
+             return word.starts_with(stem) || word.ends_with(stem);
+           });
+  });
+}
+
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found) {
   for (const auto& [commands, name] : names(plant::CommandUnit{}))
     for (const Quantity& quantity : domain::quantities(commands)) {

@@ -17,6 +17,9 @@ Words words_of(std::string_view text);
 /// By which a heading says that its column is a clock.
 extern const Words time_words;
 bool names_time(std::string_view heading);
+/// By which a heading says that its column is a duty, and that German begins or ends such a word with.
+extern const Words duty_words, duty_stems;
+bool names_duty(std::string_view heading);
 
 /// To hang on the message that a column is not among the headings `found`: which line says where it stands.
 std::string hint_of_missing(const WantedColumn& column, std::span<const std::string_view> found);

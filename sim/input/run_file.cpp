@@ -1,5 +1,6 @@
 // Formats of runs; see the header.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -82,6 +83,22 @@ bool needs_all_rows(const ColumnMap& map, const Dataset& dataset, const Run& run
          map["time"].as == domain::Role::interval;
 }
 
+/// A duty that only fills, beside another one that nobody reads: of two valves it is half of the command.
+void look_for_venting(const Table& table, const Table::Column& command, const plant::Valve& valve,
+                      TableProblems& found) {
+  if (!valve.is_on_off() || valve.ports != plant::Ports::two || !names_duty(command.in_file)) return;
+  const auto other = std::ranges::find_if(table.others, [](const auto& name) { return names_duty(name); });
+  const double rests = std::lerp(valve.zero_command, valve.span_command, 0.5),
+               slack = 1e-6 * (valve.span_command - valve.zero_command);
+  if (other == table.others.end() || table.lines.empty() ||
+      std::ranges::any_of(command.values, [&](double value) { return value < rests - slack; }))
+    return;
+  found.note({table.lines.front(), 1},
+             fmt::format("{} never vents, and {} is not read: if that one vents, write one column of both, "
+                         "filling less venting",
+                         command.in_file, *other));
+}
+
 void read_table_of(const Source& source, const ColumnMap& map, const Dataset& dataset, Run& run,
                    const std::function<bool(std::string_view)>& says_factor, Problems& problems) {
   problems.opened(source);
@@ -111,6 +128,8 @@ void read_table_of(const Source& source, const ColumnMap& map, const Dataset& da
   check_said_units(table, map, dataset.rig, says_factor, found);
   if (dataset.own_clock && (found.count() > 0 || table.columns.empty())) return;
   convert_columns(table, map, dataset.rig);
+  current = table.find(command);
+  if (current != nullptr) look_for_venting(table, *current, dataset.rig.valve, found);
   if (found.count() == 0) merge_clocks(table, map, dataset.rig.command_unit());
   if (found.count() == 0) keep_window(table, run, found);
   if (Table::Column* time = table.find("time_s"); time != nullptr && !dataset.own_clock && run.from_s > 0.0)

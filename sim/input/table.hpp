@@ -49,9 +49,10 @@ struct Table {
     double label(std::string_view text);
   };
   std::vector<Column> columns;
-  std::vector<std::size_t> lines;    ///< of each row; empty in files that are no text
-  std::vector<std::size_t> parts{};  ///< rows before which a recorder began anew, but for the first
-  char separator = ',';              ///< of cells; a blank stands for any number of them
+  std::vector<std::size_t> lines;     ///< of each row; empty in files that are no text
+  std::vector<std::size_t> parts{};   ///< rows before which a recorder began anew, but for the first
+  std::vector<std::string> others{};  ///< headings of a text that nobody wanted
+  char separator = ',';               ///< of cells; a blank stands for any number of them
 
   std::size_t rows() const { return columns.empty() ? lines.size() : columns.front().values.size(); }
   /// The next row is the first of another part.

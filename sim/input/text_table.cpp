@@ -51,6 +51,9 @@ Table find_columns(const Source& source, const TextLayout& layout, std::span<con
                              .unit = layout.units[index],
                              .own_clock = column.own_clock});
   }
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (std::ranges::find(table.columns, k, &Table::Column::index) == table.columns.end())
+      table.others.emplace_back(names[k]);
   return table;
 }
 

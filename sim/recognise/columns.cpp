@@ -72,11 +72,10 @@ ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const N
     }
     names.push_back(each->column->where.empty() ? each->column->name : "where: " + each->column->where);
   }
-  const bool two = names.size() == 2 && quantity.key == "muscle_pressure";
+  const bool duties =
+      std::ranges::all_of(candidates, [](const Named* each) { return each->heading.is_duty; });
   const std::string why = !names.empty()   ? fmt::format("it may be any of: {}{}", fmt::join(names, "; "),
-                                                       two ? "; of two muscles write muscle_pressure_1 and "
-                                                               "muscle_pressure_2, and angle"
-                                                             : "")
+                                                       names.size() == 2 ? of_two(quantity, duties) : "")
                           : others.empty() ? "no column seems to hold it"
                                            : "no heading names it; perhaps one of: " + others;
   return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}, {}};

@@ -34,6 +34,9 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
                    const std::vector<const UnknownTable*>& tables, const Heading& heading,
                    const KnownRig& rig);
 
+/// What is to be done with two columns of a quantity; empty where one of them is the right one.
+std::string_view of_two(const domain::Quantity& quantity, bool duties);
+
 /// A command that was recorded as a share, of the valve's range or as a duty: the rig's unit, zero and
 /// factor. Of two valves a duty below 0 vents (sim/ride/switch.cpp).
 void command_of_share(ColumnGuess& command, const Heading& heading,

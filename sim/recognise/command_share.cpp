@@ -8,6 +8,14 @@
 
 namespace mckibben::recognise {
 
+std::string_view of_two(const domain::Quantity& quantity, bool duties) {
+  if (quantity.key == "muscle_pressure")
+    return "; of two muscles write muscle_pressure_1 and muscle_pressure_2, and angle";
+  if (quantity.is_command() && duties)
+    return "; where one fills and the other vents, write one column of both: filling less venting";
+  return "";
+}
+
 void command_of_share(ColumnGuess& command, const Heading& heading,
                       const std::vector<const UnknownTable*>& tables, const KnownRig& rig) {
   if (command.column.open() || !command.unit.open() || command.factor ||

@@ -37,7 +37,7 @@ struct Vocabulary {
 
 /// Of valves that a duty drives.
 const Vocabulary& duties() {
-  static const Vocabulary all{"command", {"duty", "dutycycle", "pwm"}, {"tastgrad", "tastverhältnis"}, true};
+  static const Vocabulary all{"command", input::duty_words, input::duty_stems, true};
   return all;
 }
 

@@ -196,5 +196,29 @@ TEST_F(DatasetFolder, ProblemsOfAllTablesAtOnce) {
   }
 }
 
+TEST(Dataset, ADutyThatOnlyFillsIsNotedBesideOneThatIsNotRead) {
+  const Scratch scratch;
+  const auto remarks = [&](const char* ports, const std::string& called, int least) {
+    std::string rows = "t_s," + called + ",duty_vent,x_mm\n";
+    for (int k = 0; k < 40; ++k)
+      rows += std::to_string(0.01 * k) + ',' + std::to_string(k < 20 ? 50 : least) + ",0,1\n";
+    scratch.write("a.csv", rows);
+    scratch.write("dataset.yaml",
+                  std::string("schema: mckibben-dataset/1\nrig: {valve: {kind: on_off, ports: ") + ports +
+                      ", zero_command: 0 V, span_command: 10 V}}\ncolumns:\n  time: {column: t_s, unit: s}\n"
+                      "  command: {column: " +
+                      called +
+                      ", unit: V, zero: -100, factor: 0.05}\n"
+                      "  contraction: {column: x_mm, unit: mm}\nruns: [{id: a, file: a.csv, load: 5 kg}]\n");
+    const auto all = read_dataset(scratch / "dataset.yaml").remarks;
+    return all.empty() ? "" : all.front();
+  };
+  EXPECT_TRUE(holds(remarks("2/2", "duty_fill", 0),
+                    "a.csv:2:1: duty_fill never vents, and duty_vent is not read", "filling less venting"));
+  EXPECT_EQ(remarks("2/2", "duty_fill", -30), "") << "it vents";
+  EXPECT_EQ(remarks("2/2", "u", 0), "") << "no duty";
+  EXPECT_EQ(remarks("3/2", "duty_fill", 0), "") << "one valve";
+}
+
 }  // namespace
 }  // namespace mckibben::input

@@ -47,6 +47,17 @@ TEST_F(Asked, ADutyIsOfTheRigsValve) {
   EXPECT_NEAR(brought(one_way)[0], 1.0 + 0.75 * 8.0, 1e-9);
 }
 
+TEST_F(Asked, OfTwoDutiesOneColumnIsWritten) {
+  const auto two = [](int k) {
+    return fmt::format("{},{},{},{:.3f}", 12 * k, k < 100 ? 80 : 0, k < 100 ? 0 : 40, drive(k));
+  };
+  const auto why = [&](const char* head) { return column(of(head, two), "command").column.reason; };
+  EXPECT_TRUE(holds(why("t [ms],duty_fill [%],duty_vent [%],p [bar]\n"),
+                    "any of: duty_fill [%]; duty_vent [%];",
+                    "write one column of both: filling less venting"));
+  EXPECT_FALSE(why("t [ms],u_1 [V],u_2 [V],p [bar]\n").ends_with("venting"));
+}
+
 TEST_F(Asked, AStatedPercentIsOneAndAnUnstatedOneIsAsked) {
   KnownRig rig{.tick_s = 0.012, .rest_length_m = 0.3, .valve = plant::Valve{}};
   rig.valve->kind = plant::ValveKind::on_off;
