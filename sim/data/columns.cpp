@@ -110,6 +110,7 @@ class Columns {
       : data_(data), expected_(expected), findings_(findings) {}
 
   void operator()() {
+    if (auto found = reversed_flow(data_)) return findings_.push_back(std::move(*found));
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const domain::Run& run = data_.runs[i];
       map_ = with_our_names(domain::merged(data_.columns, run.columns), data_.rig.command_unit());

@@ -131,6 +131,50 @@ std::optional<Finding> beyond_the_rig(const domain::Dataset& data, const std::ve
       .severity = Severity::doubtful};
 }
 
+std::optional<Finding> reversed_flow(const domain::Dataset& data) {
+  const plant::Valve& valve = data.rig.valve;
+  if (!valve.is_on_off() || valve.ports != plant::Ports::two || data.rig.pair() != nullptr ||
+      data.rig.has_angle() || data.judged() == domain::Judged::force)
+    return std::nullopt;
+  const double span = valve.span_command - valve.zero_command;
+  const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(of_gains.flow_s / data.row_s())));
+  double along = 0.0, all = 0.0;
+  std::vector<std::size_t> runs;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const domain::Run& run = data.runs[i];
+    const std::vector<double>&read = run.judged(), &command = run.current_mA;
+    if (command.size() != read.size() || read.size() <= rows) continue;
+    runs.push_back(i);
+    const auto missing = [&](std::size_t row) { return !run.missing.empty() && run.missing[row]; };
+    const double least = of_gains.flow_share * range(read);
+    for (std::size_t k = 0; k + rows < read.size(); k += rows) {
+      const double rise = read[k + rows] - read[k];
+      if (missing(k) || missing(k + rows) || !(std::abs(rise) > least)) continue;
+      double fills = 0.0;
+      for (std::size_t row = k; row < k + rows; ++row)
+        fills += 2.0 * std::clamp((command[row] - valve.zero_command) / span, 0.0, 1.0) - 1.0;
+      along += fills * rise;
+      all += std::abs(fills * rise);
+    }
+  }
+  if (!(along < -of_gains.opposite_flow * all)) return std::nullopt;
+  const domain::ColumnMap said = domain::merged(data.columns, data.runs.front().columns);
+  const bool of_ticks = !data.own_clock && valve.command_unit == plant::CommandUnit::mA;
+  const std::string key = of_ticks || !said["current"].absent() ? "current" : "command";
+  ColumnPlace place = with_our_names(said, valve.command_unit)[key];
+  std::string line;
+  if (place.unit == name_of(valve.command_unit)) {
+    place.zero += (valve.zero_command + valve.span_command) / place.factor;
+    place.factor = -place.factor;
+    line = fmt::format("; write columns: {{{}}}", line_of(key, place));
+  }
+  return Finding{.quantity = key,
+                 .runs = std::move(runs),
+                 .message = fmt::format("{}: where it fills by the rig, the muscle gives way, and where it "
+                                        "vents, it pulls: its sign is the other one{}",
+                                        key, line)};
+}
+
 std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, ColumnPlace place) {
   const Line line(gauge.measured, gauge.model);
   if (line.correlation < of_gains.alike || line.slope <= 0.0) return std::nullopt;

@@ -44,6 +44,10 @@ std::optional<Finding> other_zero_at_rest(const domain::Dataset& data, const std
 /// Contractions that neither the braid nor the model in any run comes near to.
 std::optional<Finding> beyond_the_rig(const domain::Dataset& data, const std::vector<Expected>& expected);
 
+/// Commands that fill where contraction falls and vent where it rises: those of two valves that are open or
+/// shut set a flow, so that no scale of the contraction shows it.
+std::optional<Finding> reversed_flow(const domain::Dataset& data);
+
 /// A gauge that goes along with the model and shows many times, or a part of, what it would do.
 std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, domain::ColumnPlace place);
 

@@ -37,7 +37,9 @@ struct ColumnThresholds {
   double opposite_alike = 0.5;                             ///< and the correlation below minus this
   double same_turn = 2.0;                                  ///< as `same`: degrees and radians are far apart,
   double same_kilo = 2.7;                                  ///< and so are N and kN
-  double gauge_bar = 0.3;  ///< that the model's pressure must move to judge a gauge's unit
+  double gauge_bar = 0.3;                  ///< that the model's pressure must move to judge a gauge's unit
+  double flow_s = 0.1, flow_share = 0.01;  ///< of a run's range: a reading moves by more in that time
+  double opposite_flow = 0.5;              ///< of all motion, at least, goes the other way than valves' flow
   double least_gauge_slope = 0.5, most_gauge_slope = 2.0;  ///< of a gauge in the right unit
   double halved = 1.12, halved_share = 0.005;  ///< of a factor 2; left of the sum of squares with it
   double other_zero = 0.3;    ///< of the model's range: an offset of a contraction, if little else is left

@@ -63,6 +63,13 @@ std::string says(const domain::Dataset& data) {
   return list.empty() ? "" : list.front();
 }
 
+plant::Rig switched(plant::Rig rig) {
+  rig.valve.kind = plant::ValveKind::on_off;
+  rig.valve.switching = plant::Switching::averaged;
+  rig.valve.resolve();
+  return rig;
+}
+
 domain::Dataset scaled(double factor, std::vector<std::size_t> runs = {0, 1, 2, 3, 4, 5}) {
   auto data = sound();
   for (const std::size_t run : runs)
@@ -74,6 +81,18 @@ domain::Dataset scaled(double factor, std::vector<std::size_t> runs = {0, 1, 2, 
 void read_from(domain::Dataset& data, domain::ColumnPlace millimetres) {
   data.columns["contraction"] = std::move(millimetres);
   for (domain::Run& run : data.runs) run.ratio_per_unit = 1e-3 / data.rig.muscle.rest_length_m;
+}
+
+TEST(Sanity, ADutyWithTheOtherSignIsToldByTheFlow) {
+  domain::Dataset data = measured_on(switched({}), {11.138, 16.138}, switched({}));
+  EXPECT_EQ(said(data), std::vector<std::string>{});
+  for (domain::Run& run : data.runs)
+    for (double& mA : run.current_mA) mA = 24.0 - mA;
+  EXPECT_TRUE(holds(said(data).front(), "all runs: current: where it fills by the rig, the muscle gives way",
+                    "write columns: {current: {column: current_mA, unit: mA, zero: 24, factor: -1}}"));
+  for (const auto& [name, rig] : plant::rigs_with_one_effect())
+    for (const std::string& one : said(measured_on(switched(rig), {16.138}, switched({}))))
+      EXPECT_EQ(one.find("gives way"), std::string::npos) << name;
 }
 
 TEST(Sanity, SoundDataOfOtherRigsAreLeftAlone) {
