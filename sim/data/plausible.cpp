@@ -150,10 +150,12 @@ class Plausible {
     find(key, "beyond",
          fmt::format(
              "{0} goes up to {1:.4g} {4}, and the rig's valve answers to {2:.4g} to {3:.4g} {4}: above "
-             "that the simulated pressure does not change; are zero_command and span_command the "
+             "that {5}; are zero_command and span_command the "
              "valve's, and unit and factor the column's?",
              key, std::ranges::max(commands), valve.zero_command, valve.span_command,
-             name_of(data_.rig.command_unit())),
+             name_of(data_.rig.command_unit()),
+             valve.is_on_off() ? "it is open all the time, a duty of 100 %"
+                               : "the simulated pressure does not change"),
          Severity::doubtful);
   }
 

@@ -56,7 +56,8 @@ class PlausibleData : public ::testing::Test {
 };
 
 TEST_F(PlausibleData, CommandsAboveTheValvesAreAskedAbout) {
-  const auto asked = [&](double most_V) {
+  const auto asked = [&](double most_V,
+                         const std::string& valve = "zero_pressure: 0 bar, span_pressure: 6 bar") {
     std::string rows = "t,u,x\n";
     for (int k = 0; k < 200; ++k)
       rows += fmt::format("{},{:.3f},{:.2f}\n", 10 * k, most_V * k / 199, 0.157 * k);
@@ -64,9 +65,11 @@ TEST_F(PlausibleData, CommandsAboveTheValvesAreAskedAbout) {
     place_.write(
         "dataset.yaml",
         "schema: mckibben-dataset/1\nrig: {base: festo_dmsp_10, valve: {zero_command: 0 V, span_command: "
-        "10 V, zero_pressure: 0 bar, span_pressure: 6 bar}}\ncolumns:\n  time: {column: t, unit: ms}\n"
-        "  command: {column: u, unit: V}\n  contraction: {column: x, unit: mm}\n"
-        "runs:\n  - {id: a, file: a.csv, load: 5 kg}\n");
+        "10 V, " +
+            valve +
+            "}}\ncolumns:\n  time: {column: t, unit: ms}\n"
+            "  command: {column: u, unit: V}\n  contraction: {column: x, unit: mm}\n"
+            "runs:\n  - {id: a, file: a.csv, load: 5 kg}\n");
     return said(implausible(input::read_dataset(place_)));
   };
   EXPECT_EQ(asked(10.05), "");
@@ -74,6 +77,9 @@ TEST_F(PlausibleData, CommandsAboveTheValvesAreAskedAbout) {
             "doubtful: command goes up to 12 V, and the rig's valve answers to 0 to 10 V: above that the "
             "simulated pressure does not change; are zero_command and span_command the valve's, and unit and "
             "factor the column's?\n");
+  EXPECT_EQ(asked(10.05, "kind: on_off"), "");
+  EXPECT_TRUE(holds(asked(12.0, "kind: on_off, switching: pwm, pwm_frequency: 50 Hz"),
+                    "above that it is open all the time, a duty of 100 %; are zero_command"));
 }
 
 TEST_F(PlausibleData, WhatIsSoundIsSilent) {
