@@ -64,7 +64,7 @@ std::string command_problem(const std::string& unit) {
 }
 
 std::string problem_of(const domain::Quantity& quantity, const std::string& unit) {
-  if (quantity.is_command() && quantity.key != "current") return command_problem(unit);
+  if (quantity.is_command() && (quantity.key != "current" || unit == "%")) return command_problem(unit);
   if (quantity.key == "contraction") return contraction_problem(unit);
   if (quantity.key == "angle" && unit == counts_unit) return "";
   if (quantity.key == "time" && unit == date_unit) return "";

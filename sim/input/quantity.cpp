@@ -280,6 +280,17 @@ std::optional<law::UnitSize> unit_size(std::string_view unit) {
   return found.size;
 }
 
+namespace {
+
+/// Of valves that are open or shut.
+std::string_view if_a_duty(std::string_view unit, std::string_view si_unit) {
+  if (unit != "%" || (si_unit != "mA" && si_unit != "V")) return "";
+  return "; a duty is a command, too: 0 % is half-way from zero_command to span_command, 100 % span_command "
+         "(ports: 3/2: 0 % is zero_command)";
+}
+
+}  // namespace
+
 double read_quantity(std::string_view text, std::string_view si_unit, const Usual& usual) {
   const std::string_view whole = trimmed(text);
   if (whole.size() > longest_quantity)
@@ -307,8 +318,8 @@ double read_quantity(std::string_view text, std::string_view si_unit, const Usua
     throw BadQuantity(fmt::format("{}: {} is not a unit; wanted is {}{}", whole, unit, si_unit,
                                   example_for(number, si_unit, usual)));
   if (fit == Fit::wrong)
-    throw BadQuantity(fmt::format("{}: {} is the wrong kind of unit; wanted is {}{}", whole, unit, si_unit,
-                                  example_for("", si_unit, usual)));
+    throw BadQuantity(fmt::format("{}: {} is the wrong kind of unit; wanted is {}{}{}", whole, unit, si_unit,
+                                  example_for("", si_unit, usual), if_a_duty(unit, si_unit)));
   return converted;
 }
 
