@@ -1,17 +1,21 @@
 // The bench that is a ride: it moves by as much as the loop's clock does. Periods of a pulse-width modulation
-// begin with tick 0, as in a run.
+// begin with tick 0, and noise is drawn once a tick, as in a run.
 #pragma once
+
+#include <cstdint>
 
 #include <plant/instruments.hpp>
 #include <sim/bench/device.hpp>
 #include <sim/ride/ride.hpp>
+#include <sim/run/drawn_noise.hpp>
 
 namespace mckibben::bench {
 
 class Simulated final : public Device {
  public:
   /// At rest under that current; the first command begins at rest under its own, as a run does.
-  Simulated(const plant::Rig& rig, double load_kg, const solver::Settings& integrator, double current_mA);
+  Simulated(const plant::Rig& rig, double load_kg, const solver::Settings& integrator, double current_mA,
+            const plant::Noise& noise = {}, std::uint64_t seed = 1);
 
   std::int64_t counts(double now_s) override;
   void put(double current_mA, double now_s) override;
@@ -20,7 +24,11 @@ class Simulated final : public Device {
   void move_on(double now_s);
 
   ride::Ride ride_;
+  plant::Sensor sensor_;  ///< of the position
   plant::PositionReader counter_;
+  run::DrawnNoise noise_;
+  std::int64_t counts_ = 0;
+  double read_s_ = 0.0;
   ride::Drive drive_;
   bool begun_ = false, was_put_ = false;
 };

@@ -134,7 +134,7 @@ std::unique_ptr<bench::Device> device_of(const Scenario& scenario, const Control
   if (options.device == "comedi" && !options.dry_run)
     return bench::open_comedi(options.port, options.wiring, scenario.rig);
   return std::make_unique<bench::Simulated>(scenario.rig, scenario.loads_kg.front(), scenario.rig.integrator,
-                                            scenario.rig.dac.lowest_command);
+                                            scenario.rig.dac.lowest_command, scenario.noise, scenario.seed);
 }
 
 /// Reads `1:0`; a single number is read as the first of the two.

@@ -2,71 +2,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
-#include <random>
 #include <utility>
 
 #include <sim/ride/batch.hpp>
 #include <sim/ride/sample.hpp>
+#include <sim/run/drawn_noise.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::run {
 namespace {
 
 using plant::Sensed;
-
-/// By data sheets and what else there is, in units of the readings; of the position as contraction ratio.
-plant::BySensed noise_of_sensors(const plant::Noise& noise, const plant::Rig& rig) {
-  plant::BySensed sizes;
-  for (const plant::Sensor& sensor : rig.sensors) sizes[sensor.signal] = sensor.noise;
-  const plant::Sensor& position = rig.sensors.position();
-  const double rise_m = position.noise * position.rise_m(rig.joint.wheel_radius_m);
-  sizes[Sensed::contraction] = std::hypot(noise.encoder_jitter, rise_m / rig.muscle.rest_length_m);
-  sizes[Sensed::muscle_pressure] = std::hypot(noise.gauge_Pa, sizes[Sensed::muscle_pressure]);
-  return sizes;
-}
-
-/// Draws the noise of one run: the same for the same seed and stream, whatever runs beside it.
-class Disturbance {
- public:
-  explicit Disturbance(const RunPlan& plan)
-      : noise_(plan.noise),
-        of_sensors_(noise_of_sensors(plan.noise, plan.rig)),
-        is_none_(noise_.current_mA == 0.0 && noise_.wander_Pa == 0.0 &&
-                 std::ranges::all_of(of_sensors_.values, [](double size) { return size == 0.0; })),
-        kept_(std::exp(-plan.rig.tick_s / noise_.wander_time_s)) {
-    std::seed_seq sequence{plan.seed & 0xffffffffu, plan.seed >> 32, plan.stream & 0xffffffffu,
-                           plan.stream >> 32};
-    random_.seed(sequence);
-    if (noise_.ripple_Pa > 0.0) phase_ = std::uniform_real_distribution(0.0, 2.0 * std::numbers::pi)(random_);
-    if (noise_.wander_Pa > 0.0) wander_ = draw();
-  }
-  double of(Sensed signal) { return of_sensors_[signal] * draw(); }
-  double current_mA() { return noise_.current_mA * draw(); }
-  /// Of the reference pressure; to be asked once a tick.
-  double reference_Pa(double time_s) {
-    double sum_Pa = 0.0;
-    if (noise_.ripple_Pa > 0.0)
-      sum_Pa +=
-          noise_.ripple_Pa * std::sin(2.0 * std::numbers::pi * time_s / noise_.ripple_period_s + phase_);
-    if (noise_.wander_Pa > 0.0) {
-      sum_Pa += noise_.wander_Pa * wander_;
-      wander_ = kept_ * wander_ + std::sqrt(1.0 - kept_ * kept_) * draw();  // exact over a tick
-    }
-    return sum_Pa;
-  }
-
- private:
-  /// Also where a kind of noise is absent, so that the others do not change with it; but for nothing at all.
-  double draw() { return is_none_ ? 0.0 : normal_(random_); }
-
-  plant::Noise noise_;
-  plant::BySensed of_sensors_;
-  bool is_none_;
-  double kept_, phase_ = 0.0, wander_ = 0.0;
-  std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
-};
 
 /// What a run does at each instant, and what it leaves behind. `done` hears that.
 class Run : public ride::BatchItem {
@@ -82,7 +28,7 @@ class Run : public ride::BatchItem {
         begin_(first_ - std::lround(plan.rig.settling_time_s / plan.rig.tick_s)),
         k_(begin_),
         counter_(plan.rig),
-        disturbance_(plan) {
+        disturbance_(plan.noise, plan.rig, plan.seed, plan.stream) {
     recording_.samples.reserve(plan_.ticks);
     ask_timed([&] { return controller_.rest(); });
     rider_.start(ride::settling(drive_, plan_.rig), time_s(begin_));
@@ -206,7 +152,7 @@ class Run : public ride::BatchItem {
   std::size_t next_force_ = 0;
   const plant::Sensor& sensor_ = plan_.rig.sensors.position();
   plant::PositionReader counter_;
-  Disturbance disturbance_;
+  DrawnNoise disturbance_;
   std::int64_t counts_ = 0;
   ride::SensorNoise noise_{};  ///< of the last row
   Recording recording_;

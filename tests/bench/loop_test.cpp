@@ -243,6 +243,27 @@ TEST(SimulatedBench, ReplaysFromTheInstantsOfABusyMachine) {
   EXPECT_GT(off(ticks), 2);
 }
 
+TEST(SimulatedBench, HasTheNoiseOfTheRigsSensor) {
+  plant::Rig rig;
+  plant::Sensor laser = rig.sensors.position();
+  laser.kind = plant::SensorKind::laser;
+  laser.resolution = 1e-5;
+  const auto scatter = [&](double noise_m) {
+    laser.noise = noise_m;
+    rig.sensors.put(laser);
+    Simulated bench(rig, 16.0, {}, 9.0);
+    double squares = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+      const auto counts = static_cast<double>(bench.counts(rig.tick_s * k));
+      bench.put(4.0, rig.tick_s * k);
+      squares += counts * counts / 1000.0;
+    }
+    return 1e-5 * std::sqrt(squares);
+  };
+  const double at_rest_m = scatter(0.0);
+  EXPECT_NEAR(std::sqrt(std::pow(scatter(1e-4), 2) - std::pow(at_rest_m, 2)), 1e-4, 2e-5);
+}
+
 TEST(SimulatedBench, IsBelievedWithAnyLoad) {
   for (const double load_kg : {0.5, 5.0, 45.0}) {
     LoopPlan all = plan(300);
