@@ -139,6 +139,12 @@ Point Point::without(std::size_t place) const {
   fewer.effects.erase(fewer.effects.begin() + static_cast<std::ptrdiff_t>(place));
   return fewer;
 }
+Point Point::alike_in(int which) const {
+  Point alike = *this;
+  std::erase(alike.differ, which);
+  alike.of_runs[static_cast<std::size_t>(which)].clear();
+  return alike;
+}
 
 Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : described_(data.rig) {
   for (diagnose::Parameter& p : diagnose::nominal_parameters(data.rig, data.rig.spreads)) {

@@ -132,6 +132,8 @@ struct Point {
   bool lets_differ(int which) const;
   /// The same without the effect at a place among its own.
   Point without(std::size_t place) const;
+  /// The same with one of `differing` no longer from run to run.
+  Point alike_in(int which) const;
 };
 
 enum class Kind { parameter, size, shape, term, stretch };

@@ -52,12 +52,13 @@ std::vector<Start> Search::alike_to(const Model& base, const Part& part, const E
   std::vector<Start> starts;
   const Names names = dictionary_.names(part.rest);
   if (names.size() == static_cast<std::size_t>(decisive.most_together)) return starts;
-  const Eigen::MatrixXd gram = base.error.grams(part.change, columns).sum();
+  const Eigen::MatrixXd gram = base.error.with(part.rest.differ).grams(part.change, columns).sum();
   for (Index c = 0; c < columns.cols(); ++c) {
     const Probe& probe = list[static_cast<std::size_t>(c)];
     const double along = gram(0, c + 1), square = gram(c + 1, c + 1);
     if (!are_alike(along, gram(0, 0), square, least) || part.rest.has(probe.entry)) continue;
     const Added added = dictionary_.clipped({probe.entry, along / square, probe.shapes});
+    if (!(along * added.size > 0.0)) continue;  // the other way, which it cannot be
     Start start{log_t(added.size) - part.log_prior, part.rest};
     start.point.effects.push_back(added);
     std::ranges::sort(start.point.effects, {}, &Added::entry);
@@ -82,6 +83,7 @@ std::pair<Point, double> Search::resized(const Model& base, Point point, const P
     *added = dictionary_.clipped(*added);
     return dictionary_.setting(point);
   };
+  const Error error = base.error.with(rest.differ);
   double middle = added->size, width = 0.5;  // relative
   double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < 3; ++pass, width *= 0.25) {
@@ -96,7 +98,7 @@ std::pair<Point, double> Search::resized(const Model& base, Point point, const P
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       const Eigen::VectorXd one = off.col(static_cast<Index>(i + 1));
       if (!one.allFinite()) continue;
-      const double square = base.error.grams(one, Eigen::MatrixXd(one.size(), 0)).sum()(0, 0);
+      const double square = error.grams(one, Eigen::MatrixXd(one.size(), 0)).sum()(0, 0);
       if (square < least) {
         least = square;
         middle = sizes[i];
@@ -127,23 +129,17 @@ std::vector<Start> Search::twins(const Model& base, const Eigen::MatrixXd& colum
 /// What each of its own changes.
 std::vector<Search::Part> Search::parts_of(const Model& base) const {
   std::vector<Part> parts;
-  for (std::size_t i = 0; i < base.point.effects.size(); ++i) {
-    Part part{base.point.without(i), {}, log_t(base.point.effects[i].size), i};
+  const auto add = [&](Part part) {
     const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(part.rest));
-    if (!without.allFinite()) continue;
+    if (!without.allFinite()) return;
     part.change = base.read - without;
     parts.push_back(std::move(part));
-  }
-  for (const int g : base.point.differ) {
-    if (!is_simulated(g)) continue;
-    Part part{base.point, {}, 0.0, std::nullopt};
-    std::erase(part.rest.differ, g);
-    part.rest.of_runs[static_cast<std::size_t>(g)].clear();
-    const Eigen::VectorXd without = problem_.simulator.read(dictionary_.setting(part.rest));
-    if (!without.allFinite()) continue;
-    part.change = base.read - without;
-    parts.push_back(std::move(part));
-  }
+  };
+  for (std::size_t i = 0; i < base.point.effects.size(); ++i)
+    add({base.point.without(i), {}, log_t(base.point.effects[i].size), i});
+  for (const int g : base.point.differ)
+    if (is_simulated(g))  // a number of each run, in whose place one may stand
+      add({base.point.alike_in(g), {}, -worth * static_cast<double>(rows_.runs.size()), std::nullopt});
   return parts;
 }
 
@@ -158,9 +154,7 @@ std::vector<Start> Search::around(const Model& base, const Eigen::MatrixXd& colu
   const auto add = [&](std::vector<Start> more) { std::ranges::move(more, std::back_inserter(starts)); };
   for (const int g : base.point.differ) {
     if (is_simulated(g)) continue;  // a part
-    Point q = base.point;
-    std::erase(q.differ, g);
-    add(starts_from(base, columns, list, q, left, base.slopes, false));
+    add(starts_from(base, columns, list, base.point.alike_in(g), left, base.slopes, false));
   }
   const auto coordinates = dictionary_.coordinates(base.point);
   for (const Part& part : parts) {
@@ -169,8 +163,9 @@ std::vector<Start> Search::around(const Model& base, const Eigen::MatrixXd& colu
       if (coordinates[j].kind == Kind::parameter ||
           coordinates[j].of != part.place.value_or(coordinates.size()))
         kept.push_back(static_cast<Index>(j));
-    add(starts_from(base, columns, list, part.rest, left + part.change, base.slopes(Eigen::all, kept),
-                    false));
+    Model rest(problem_, part.rest, base.error);
+    rest.read = base.read - part.change;
+    add(starts_from(base, columns, list, part.rest, rest.residual(), base.slopes(Eigen::all, kept), false));
   }
   return starts;
 }
@@ -351,7 +346,8 @@ std::vector<Start> Search::of_other_sides(const Model& base, const Part& part) c
 
 /// What may stand for one of the names as well: told beside it, or better after all.
 void Search::try_rivals(const Model& base, const std::vector<Start>& starts, const Part& part) {
-  const double square = base.error.grams(part.change, Eigen::MatrixXd(part.change.size(), 0)).sum()(0, 0);
+  const Error error = base.error.with(part.rest.differ);
+  const double square = error.grams(part.change, Eigen::MatrixXd(part.change.size(), 0)).sum()(0, 0);
   std::set<Names> tried;
   for (const Start& start : starts) {
     const Names names = dictionary_.names(start.point);
@@ -372,12 +368,7 @@ void Search::prune() {
     pruned = false;
     std::vector<Point> smaller;
     for (std::size_t i = 0; i < here_->point.effects.size(); ++i) smaller.push_back(here_->point.without(i));
-    for (const int g : here_->point.differ) {
-      Point q = here_->point;
-      std::erase(q.differ, g);
-      q.of_runs[static_cast<std::size_t>(g)].clear();
-      smaller.push_back(q);
-    }
+    for (const int g : here_->point.differ) smaller.push_back(here_->point.alike_in(g));
     for (const Point& q : smaller) {
       for (const bool described : {false, true}) {
         if (described && !bent(*here_)) continue;

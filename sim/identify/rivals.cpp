@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/identify/decisive.hpp>
 #include <sim/identify/held_out.hpp>
@@ -24,12 +25,13 @@ bool has(const Names& names, const std::string& name) {
   return std::ranges::binary_search(names, name);
 }
 
-/// Whether a model predicts unseen runs as well as the chosen one, and is not far less probable.
+/// Whether a model predicts unseen runs as well as the chosen one, and is not far less probable: by no more
+/// than runs disagree about it (Vuong 1989).
 bool rivals_chosen(const Identified& found, std::size_t i) {
   const Judged &chosen = found.table[found.decision.chosen], &other = found.table[i];
   const auto [nats, error] = loss(chosen.held_out, other.held_out);
   return nats <= std::max(decisive.errors * error, decisive.strong) &&
-         other.score > chosen.score + std::log(decisive.mass);
+         other.score > chosen.score - std::max(-std::log(decisive.mass), error);
 }
 
 EffectName who(const Dictionary& dictionary, const std::string& name) {
@@ -186,6 +188,10 @@ std::vector<diagnose::Ranked> ranking(const Identified& found, const std::vector
       one.training_rmse = found.models[*best].left() * study.rows.unit;
       one.held_out_rmse = left[*best];
       one.outcome = outcome_of(found, *best);
+      Names beside = found.table[*best].names;
+      std::erase(beside, name);
+      if (*best != found.decision.chosen && !beside.empty())
+        one.outcome = fmt::format("with {}: {}", fmt::join(beside, ", "), one.outcome);
       one.fall = std::max(0.0, 2.0 * (found.table[*best].score - reference));
       for (const Added& added : found.models[*best].point.effects)
         if (const Entry& entry = study.dictionary.entries[added.entry]; entry.name == name && entry.effect)

@@ -46,9 +46,9 @@ struct StartNumber {
   double ride::Underway::*of;
   double deviation;
 };
-constexpr std::array<StartNumber, 4> start_numbers{{{&ride::Underway::rise_m, 2e-4},
-                                                    {&ride::Underway::speed_m_per_s, 5e-3},
-                                                    {&ride::Underway::acceleration_m_per_s2, 1.0},
+constexpr std::array<StartNumber, 4> start_numbers{{{&ride::Underway::off_rise_m, 2e-4},
+                                                    {&ride::Underway::off_speed_m_per_s, 5e-3},
+                                                    {&ride::Underway::off_acceleration_m_per_s2, 1.0},
                                                     {&ride::Underway::memories, 1.0}}};
 
 /// How one begins on its way: by what is known, and by its setting.

@@ -40,13 +40,13 @@ void rest_memories(Rider& rider, const plant::State<double>& before, double off,
 namespace {
 
 /// A cord that stretches is as long as the acceleration of the joint asks for, and stays so.
-void stretch_cord(Rider& rider, const Underway& seen, double speed_m_per_s) {
+void stretch_cord(Rider& rider, double speed_m_per_s, double acceleration_m_per_s2) {
   plant::SideMemory<double>& memory = rider.now.flow.memory.side;
   memory[plant::cord_end_speed] = speed_m_per_s;
   const double slack = rider.moment().acceleration_m_per_s2;
   double& stretch_m = memory[plant::cord_stretch] = plant::memory_sizes[plant::cord_stretch];
   const double slope = (rider.moment().acceleration_m_per_s2 - slack) / stretch_m;
-  stretch_m = std::max((seen.acceleration_m_per_s2 - slack) / slope, 0.0);
+  stretch_m = std::max((acceleration_m_per_s2 - slack) / slope, 0.0);
 }
 
 /// The threads' bristles bend as far as the acceleration asks for, and friction allows.
@@ -79,10 +79,12 @@ void set_off(Rider& rider, const Underway& seen) {
       plant.rig().effects.reading_delay_s() + plant.rig().sensors.position().late_s(now.time_s);
   now.rises = {};
   now.late.clear();
-  const double stood_m = seen.rise_m - plant.rig().joint.reading_offset_m;
+  const double stood_m = seen.rise_m - plant.rig().joint.reading_offset_m + seen.off_rise_m;
   now.rises.note(now.time_s - late_s, stood_m, seen.speed_m_per_s, now.time_s - late_s);
-  const double speed_m_per_s = seen.speed_m_per_s + late_s * seen.acceleration_m_per_s2;
-  const double rise_m = stood_m + 0.5 * late_s * (seen.speed_m_per_s + speed_m_per_s);
+  const double gained_m_per_s = late_s * seen.acceleration_m_per_s2;
+  const double rise_m = stood_m + late_s * (seen.speed_m_per_s + 0.5 * gained_m_per_s);
+  const double speed_m_per_s = seen.speed_m_per_s + gained_m_per_s + seen.off_speed_m_per_s;
+  const double acceleration_m_per_s2 = seen.acceleration_m_per_s2 + seen.off_acceleration_m_per_s2;
   state.joint = {rise_m / length_m, speed_m_per_s / length_m};
   now.held.given = now.drive.given();
   now.held.pressure_rate_Pa_per_s = 0.0;
@@ -90,14 +92,14 @@ void set_off(Rider& rider, const Underway& seen) {
     state.side.muscle_pressure_Pa = plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
     if (!now.drive.valve_pressure_Pa) state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa;
   }
-  if (plant.side().stretches()) stretch_cord(rider, seen, speed_m_per_s);
+  if (plant.side().stretches()) stretch_cord(rider, speed_m_per_s, acceleration_m_per_s2);
   SomeMemories all;
   all.fill(true);
   rest_memories(rider, at_rest, seen.memories, all);
   if (plant.has_events())
     now.held.slip = state.joint.contraction_speed_per_s < 0.0 ? plant::Slip::falling : plant::Slip::rising;
   else
-    bend_bristles(rider, seen.acceleration_m_per_s2);
+    bend_bristles(rider, acceleration_m_per_s2);
   rider.open_ledger();
   rider.look();
 }

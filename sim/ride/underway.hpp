@@ -11,10 +11,12 @@
 namespace mckibben::ride {
 
 struct Underway {
-  double rise_m = 0.0, speed_m_per_s = 0.0, acceleration_m_per_s2 = 0.0;
+  double rise_m = 0.0, speed_m_per_s = 0.0, acceleration_m_per_s2 = 0.0;  ///< as the encoder shows them
   std::optional<double> muscle_pressure_Pa{};  ///< by a gauge; none: what the valve is asked for
   /// How far memories of effects are from rest, in their working sizes: nobody has seen what went before.
   double memories = 0.0;
+  /// How far the load is off what follows from these now, where they are late: the rise was so all the while.
+  double off_rise_m = 0.0, off_speed_m_per_s = 0.0, off_acceleration_m_per_s2 = 0.0;
 };
 
 /// Of a hanging load that has been started; its drive holds.

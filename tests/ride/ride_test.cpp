@@ -62,6 +62,30 @@ TEST(Ride, SetsOffWhereALoadStandsAndNotWhereItIsRead) {
   EXPECT_NEAR(ride.reading().wheel_m, 0.021, 1e-12);
 }
 
+// What an encoder shows late is carried on; what is not known of it is of now, and is not.
+TEST(Ride, SetsOffAsFarOffWhereReadingsAreLateAsWhereTheyAreNot) {
+  plant::Rig late;
+  late.effects.get<plant::ReadingDelay>().time_s = 0.04;
+  const auto begun = [&](const ride::Underway& seen) {
+    Ride ride(Loaded{late, load_kg}, {solver::Method::erk, 1e-6});
+    ride.start(drive_at(0), 0.0);
+    set_off(ride.rider(), seen);
+    return std::pair(ride.flow().state.joint, ride.reading().wheel_m);
+  };
+  ride::Underway seen{.rise_m = 0.02, .speed_m_per_s = 0.01, .acceleration_m_per_s2 = 0.2};
+  const auto [here, shown_m] = begun(seen);
+  const double length_m = late.muscle.rest_length_m;
+  EXPECT_NEAR(here.contraction_ratio * length_m, 0.02 + 0.01 * 0.04 + 0.5 * 0.2 * 0.04 * 0.04, 1e-12);
+  EXPECT_NEAR(shown_m, 0.02, 1e-12);
+  seen.off_rise_m = 1e-4;
+  seen.off_speed_m_per_s = 2e-3;
+  seen.off_acceleration_m_per_s2 = 1.0;
+  const auto [off, off_shown_m] = begun(seen);
+  EXPECT_NEAR((off.contraction_ratio - here.contraction_ratio) * length_m, 1e-4, 1e-12);
+  EXPECT_NEAR((off.contraction_speed_per_s - here.contraction_speed_per_s) * length_m, 2e-3, 1e-12);
+  EXPECT_NEAR(off_shown_m - shown_m, 1e-4, 1e-12);
+}
+
 // Of a rig on a cord position, speed, acceleration and pressure are seen: the cord is as long as they ask
 // for, and the load goes on as it did.
 TEST(Ride, SetsOffWithACordThatIsStretchedAsItsLoadHangs) {

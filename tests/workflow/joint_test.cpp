@@ -38,8 +38,8 @@ TEST(NightlyJointDiagnosis, NamesTheLeakOfBothMusclesUnderCommands) {
 
 /// A leak of muscle 2, or in the mirror of muscle 1, is named as that muscle's; its size.
 FittedNumber leak_of_one_muscle(bool mirror) {
-  const domain::Dataset data =
-      of_a_joint(pair_with(plant::MuscleLeak{.conductance_m3_per_s_Pa = 3e-10}, Side::two), true);
+  const domain::Dataset data = of_a_joint(
+      pair_with(plant::MuscleLeak{.conductance_m3_per_s_Pa = 3e-10}, Side::two), true, {.angle_rad = 3e-4});
   const Diagnosis found = diagnosis_of(mirror ? mirrored(data) : data, 2);
   EXPECT_EQ(found.verdict, Verdict::missing_effect) << found.because;
   EXPECT_EQ(found.effects.size(), 1u) << found.because;
