@@ -12,7 +12,7 @@ namespace mckibben::data {
 void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
                    std::vector<Finding>& findings);
 
-/// All loads in another unit; labels that two or more runs have of each other. Adds to `findings`.
+/// All loads in another unit; a label that is wrong; labels that runs have of each other. Adds to `findings`.
 void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
                  std::vector<Finding>& findings);
 

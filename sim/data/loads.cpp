@@ -2,6 +2,7 @@
 // seem to carry is off by a factor common to all, and by less than half of the difference of their loads.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -187,27 +188,98 @@ std::vector<Weighed> in_order(std::vector<Weighed> list) {
   return list;
 }
 
-std::optional<Finding> exchanged_labels(const domain::Dataset& data, const std::vector<Weighed>& list) {
-  const std::vector<Weighed> ordered = in_order(list);
+/// How well labels explain what runs seem to weigh.
+struct Fit {
+  double scale = 1.0;   ///< common to all: another muscle, an effect
+  double spread = 0.0;  ///< largest logarithm of what else is left
+
+  double misfit() const { return spread + std::abs(std::log(scale)); }
+};
+
+Fit fit_of(const std::vector<Weighed>& list) {
+  Fit fit{.scale = common_ratio(list)};
+  for (const Weighed& one : list)
+    fit.spread = std::max(fit.spread, one.seems_kg > 0.0 && fit.scale > 0.0
+                                          ? std::abs(std::log(one.seems_kg / one.label_kg / fit.scale))
+                                          : std::numeric_limits<double>::infinity());
+  return fit;
+}
+
+bool same_labels(const std::vector<Weighed>& a, const std::vector<Weighed>& b) {
+  return std::ranges::equal(a, b, {}, &Weighed::label_kg, &Weighed::label_kg);
+}
+
+/// A label that alone contradicts the others, which agree.
+struct Alone {
+  Weighed run;
+  Fit others;
+};
+
+/// `exchangeable`: an exchange of labels would bring them into order.
+std::optional<Alone> alone(const std::vector<Weighed>& list, bool exchangeable) {
+  std::optional<Alone> best;
+  for (std::size_t i = 0; i < list.size() && list.size() > 1; ++i) {
+    std::vector<Weighed> others = list;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const Fit fit = fit_of(others);
+    const double off = std::abs(std::log(list[i].seems_kg / list[i].label_kg / fit.scale));
+    const double left = others.size() > 1 ? fit.spread : fit.misfit();
+    if (list[i].seems_kg <= 0.0 || !(left < std::log(of_loads.others_agree)) ||
+        !same_labels(in_order(others), others))
+      continue;
+    if (!exchangeable && (others.size() < 2 || off < std::log(of_loads.alone) || off < of_loads.apart * left))
+      continue;
+    if (!best || fit.misfit() < best->others.misfit()) best = Alone{list[i], fit};
+  }
+  return best;
+}
+
+Finding wrong_label(const domain::Dataset& data, const Alone& found) {
+  const auto& [run, label_kg, seems_kg] = found.run;
+  return {.quantity = "load",
+          .runs = {run},
+          .message = fmt::format("{} ({} kg) moves like {:.3g} kg, and the other runs agree with their "
+                                 "labels: is this label wrong? Then load: {:.3g} kg; or was its encoder set "
+                                 "to zero elsewhere?",
+                                 data.runs[run].id, domain::write_number(label_kg), seems_kg,
+                                 seems_kg / found.others.scale),
+          .severity = Severity::doubtful};
+}
+
+/// Whether each run that got another label seems to weigh it.
+bool agree(const std::vector<Weighed>& list, const std::vector<Weighed>& ordered) {
   const double scale = common_ratio(ordered);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const double label_kg = list[i].label_kg, other_kg = ordered[i].label_kg;
+    if (label_kg != other_kg && !(std::abs(list[i].seems_kg - scale * other_kg) <
+                                  of_loads.agrees * std::abs(label_kg - other_kg) * scale))
+      return false;
+  }
+  return true;
+}
+
+/// Labels that contradict the order of the loads: one that is wrong, some that were exchanged, or a question.
+std::optional<Finding> wrong_labels(const domain::Dataset& data, const std::vector<Weighed>& list) {
+  const std::vector<Weighed> ordered = in_order(list);
+  const bool exchangeable = !same_labels(list, ordered);
+  const bool all_agree = agree(list, ordered);
+  if (const auto one = alone(list, exchangeable);
+      one && (!exchangeable || !all_agree || one->others.misfit() < fit_of(ordered).misfit()))
+    return wrong_label(data, *one);
+  if (!exchangeable) return std::nullopt;
   Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
   std::string written, seems;
-  bool all_agree = true;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const double label_kg = list[i].label_kg, other_kg = ordered[i].label_kg;
     if (label_kg == other_kg) continue;
     found.runs.push_back(list[i].run);
-    found.exchanged.push_back({list[i].run, other_kg});
-    all_agree = all_agree && std::abs(list[i].seems_kg - scale * other_kg) <
-                                 of_loads.agrees * std::abs(label_kg - other_kg) * scale;
+    if (all_agree) found.exchanged.push_back({list[i].run, other_kg});
     const std::string& id = data.runs[list[i].run].id;
     const char* const comma = written.empty() ? "" : ", ";
     written += fmt::format("{}load: {} kg for {}", comma, domain::write_number(other_kg), id);
     seems += fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, domain::write_number(label_kg),
                          list[i].seems_kg);
   }
-  if (found.runs.empty()) return std::nullopt;
-  if (!all_agree) found.exchanged.clear();
   found.message =
       fmt::format("at equal pressure a heavier load contracts less, but {}: {}", seems,
                   all_agree ? "these labels look exchanged; write " + written
@@ -224,7 +296,7 @@ void check_loads(const domain::Dataset& data, const std::vector<Expected>& expec
   auto found = other_unit(list);
   if (!found) found = misplaced_points(data, list);
   if (!found) found = beyond_the_rig(data, expected);  // what weighs less than nothing has no order
-  if (!found) found = exchanged_labels(data, list);
+  if (!found) found = wrong_labels(data, list);
   if (found) findings.push_back(std::move(*found));
 }
 

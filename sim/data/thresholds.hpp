@@ -57,9 +57,11 @@ struct LoadThresholds {
   double moving = 0.01;         ///< if the simulated load moves so far meanwhile, contraction ratio
   double compared_share =
       0.5;  ///< of the rows in which the simulated load hangs as well: then it is compared
-  double least_difference = 0.08;  ///< of the heavier of two loads that are compared
-  double reversed = 0.5;           ///< of that difference: so far the other way round
-  double agrees = 0.35;            ///< the same with the labels exchanged
+  double least_difference = 0.08;    ///< of the heavier of two loads that are compared
+  double reversed = 0.5;             ///< of that difference: so far the other way round
+  double agrees = 0.35;              ///< the same with the labels exchanged
+  double others_agree = 1.2;         ///< factor between the other runs, where one label alone is wrong;
+  double alone = 1.35, apart = 4.0;  ///< what it is off by, if in order: a factor, and so many of theirs
   double near_grams = 2.0;     ///< factors, round kg written in g, N and pounds; a muscle of half or twice
   double near_newtons = 1.25;  ///< the force comes near to pounds, none to the others
   double near_pounds = 1.2, sure_pounds = 1.08;

@@ -253,6 +253,25 @@ TEST(Sanity, ExchangedLabelsOfTwoOrThreeRunsAreFound) {
       << around;
 }
 
+TEST(Sanity, ASingleWrongLabelIsSaidWithWhatItsRunLifts) {
+  const auto expect = [](const domain::Dataset& data, const char* run, const char* begins, double load_kg) {
+    const std::string text = says(data), line = "Then load: ";
+    EXPECT_TRUE(holds(text, fmt::format("warning: run {}: {}", run, begins))) << text;
+    const auto at = text.find(line);
+    ASSERT_NE(at, std::string::npos) << text;
+    EXPECT_NEAR(std::stod(text.substr(at + line.size())), load_kg, 0.1 * load_kg) << text;
+  };
+  // An exchange would bring these in order, and each of its lines would be wrong.
+  expect(labelled(sound(), {0, 2}, {21.138, 16.138}), "r01", "r01 (21.138 kg) moves like 1", 11.138);
+  expect(labelled(sound(), {0, 2, 4}, {19.138, 16.138, 23.406}), "r01", "r01 (19.138 kg) moves like 1",
+         11.138);
+  expect(labelled(sound(), {0, 1, 2, 3, 4, 5}, {11.138, 11.138, 16.138, 16.138, 9.0, 23.406}), "r05",
+         "r05 (9 kg) moves like 2", 23.406);
+  // No exchange would.
+  expect(labelled(sound(), {0, 1, 2, 3, 4, 5}, {11.138, 11.138, 16.138, 16.138, 23.406, 43.406}), "r06",
+         "r06 (43.406 kg) moves like 2", 23.406);
+}
+
 // Also with an effect in the rig, or another muscle: the order of the loads needs no exact model.
 TEST(Sanity, ExchangedLabelsAreFoundWhateverTheRigHas) {
   auto rigs = plant::rigs_with_one_effect();
