@@ -225,7 +225,10 @@ int make_campaign(const DatasetOptions& options, const domain::Campaign& campaig
 }
 
 int make_dataset(const DatasetOptions& options) {
-  domain::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign));
+  std::vector<input::Problem> warnings;
+  domain::Campaign campaign = input::read_campaign(std::filesystem::path(options.campaign), &warnings);
+  if (cluster::crew().leads())
+    for (const input::Problem& warning : warnings) fmt::print(stderr, "{}\n", input::to_text(warning));
   if (options.seed) campaign.seed = *options.seed;
   if (!campaign.vary.absent() && !options.formats.empty()) {
     say("--format does not apply to a campaign with `vary`: it writes one NetCDF file; --keep rows or "

@@ -87,7 +87,7 @@ Looked read_any(const std::filesystem::path& path, std::vector<Problem>& warning
   } else if (kind == "mckibben-dataset") {
     return read_measured(path, warnings);
   } else if (kind == "mckibben-campaign") {
-    input::read_campaign(path);
+    input::read_campaign(path, &warnings);
   } else if (kind == "mckibben-calibration") {
     std::vector<domain::InputFile> inputs;
     input::read_calibration(path, inputs);

@@ -1,6 +1,7 @@
 // Runs row by row; see the header.
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,8 @@
 #include <sim/data/plausible.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
+#include <sim/domain/number.hpp>
+#include <sim/domain/rig_number.hpp>
 
 namespace mckibben::data {
 namespace {
@@ -43,6 +46,7 @@ class Readings {
       else if (moves(i))
         readings(i);
     }
+    never_lifted();
     copies();
   }
 
@@ -117,6 +121,35 @@ class Readings {
                                values.front() / plant::Pa_per_bar));
     else
       mask_spikes(i, "the pressure", values, expected_[i].judged, of_readings.gauge_step_Pa);
+  }
+
+  /// Runs whose load stayed on its stop, as the force of the rig says: then the number may be wrong, of the
+  /// load or of the rig.
+  void never_lifted() {
+    if (data_.judged() != domain::Judged::contraction) return;
+    std::map<double, std::vector<std::size_t>> by_load;
+    std::map<double, double> most_Pa;
+    for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      const domain::Run& run = data_.runs[i];
+      const Series& pressure_Pa = expected_[i].pressure_Pa;
+      const auto stays = [](const Series& ratios) {
+        return !ratios.empty() && *std::ranges::max_element(ratios) < domain::hardly_lifted;
+      };
+      if (pressure_Pa.empty() || range(pressure_Pa) < of_readings.gauge_bar * plant::Pa_per_bar ||
+          !stays(run.judged()) || !stays(expected_[i].judged))
+        continue;
+      const double highest_Pa = *std::ranges::max_element(pressure_Pa);
+      if (domain::never_lifted(run.load_kg, data_.rig, highest_Pa).empty()) continue;
+      by_load[run.load_kg].push_back(i);
+      most_Pa[run.load_kg] = std::max(most_Pa[run.load_kg], highest_Pa);
+    }
+    for (auto& [load_kg, runs] : by_load)
+      result_.findings.push_back(
+          {.runs = std::move(runs),
+           .message = fmt::format("the load hardly leaves its stop: load = {} kg is {}",
+                                  domain::write_number(load_kg),
+                                  domain::never_lifted(load_kg, data_.rig, most_Pa[load_kg])),
+           .severity = Severity::doubtful});
   }
 
   bool moves(std::size_t i) {

@@ -183,4 +183,20 @@ std::string too_heavy(double load_kg, const plant::Rig& rig) {
   return text.str();
 }
 
+double most_pressure_Pa(const plant::Rig& rig) {
+  if (rig.valve.seals()) return rig.valve.fill_pressure_Pa;
+  return rig.valve.is_on_off() ? rig.valve.supply_pressure_Pa : rig.valve.span_pressure_Pa;
+}
+
+std::string never_lifted(double load_kg, const plant::Rig& rig, double pressure_Pa) {
+  constexpr double against_friction = 0.9;
+  const double most_kg = against_friction * plant::Braid(rig.muscle).force_N(hardly_lifted, pressure_Pa) /
+                         plant::gravity_m_per_s2;
+  if (rig.pulled_kg(load_kg) <= most_kg) return "";
+  std::ostringstream text;
+  text << std::setprecision(3) << "more than the muscle lifts, about " << most_kg << " kg at "
+       << pressure_Pa / plant::Pa_per_bar << " bar: is the number right?";
+  return text.str();
+}
+
 }  // namespace mckibben::domain

@@ -34,4 +34,10 @@ double usual_load_kg(const plant::Rig& rig);
 /// Why the rig's taut threads cannot bear a load; empty if they can.
 std::string too_heavy(double load_kg, const plant::Rig& rig);
 
+/// The highest pressure that the rig's valve gives.
+double most_pressure_Pa(const plant::Rig& rig);
+inline constexpr double hardly_lifted = 0.02;  ///< contraction ratio
+/// That the muscle cannot lift a load so far against its friction at a pressure; empty if it can.
+std::string never_lifted(double load_kg, const plant::Rig& rig, double pressure_Pa);
+
 }  // namespace mckibben::domain

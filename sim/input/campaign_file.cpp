@@ -145,7 +145,7 @@ plant::Rig known_rig(const YamlFile& file, const plant::Rig& rig) {
 
 }  // namespace
 
-Campaign read_campaign(Source source) {
+Campaign read_campaign(Source source, std::vector<Problem>* warnings) {
   const YamlFile file = parse_yaml(std::move(source));
   Problems problems;
   Campaign campaign;
@@ -170,13 +170,17 @@ Campaign read_campaign(Source source) {
     check_repeats(file, campaign, problems);
   }
   problems.raise();
+  if (warnings != nullptr) {
+    const std::vector<Problem> found = problems.warnings();
+    warnings->insert(warnings->end(), found.begin(), found.end());
+  }
   campaign.known = known_rig(file, campaign.rig);
   campaign.inputs = problems.inputs();
   return campaign;
 }
 
-Campaign read_campaign(const std::filesystem::path& path) {
-  return read_campaign(Source::load(path, largest_yaml_bytes));
+Campaign read_campaign(const std::filesystem::path& path, std::vector<Problem>* warnings) {
+  return read_campaign(Source::load(path, largest_yaml_bytes), warnings);
 }
 
 Json campaign_json(const Campaign& campaign) {

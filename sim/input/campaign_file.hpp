@@ -16,11 +16,11 @@ using domain::Campaign, domain::CampaignCurrent, domain::CampaignWaveform;
 
 inline constexpr std::string_view campaign_schema = "mckibben-campaign/1";
 
-/// Reads a campaign and the rig files and recorded currents that it names. Throws MissingInput; BadInput with
-/// the problems of all files.
-Campaign read_campaign(const std::filesystem::path& path);
+/// Reads a campaign and the rig files and recorded currents that it names; adds warnings. Throws
+/// MissingInput; BadInput with the problems of all files.
+Campaign read_campaign(const std::filesystem::path& path, std::vector<Problem>* warnings = nullptr);
 /// The same from text at hand; relative paths start at the source's folder.
-Campaign read_campaign(Source source);
+Campaign read_campaign(Source source, std::vector<Problem>* warnings = nullptr);
 
 /// The contents of a campaign file that holds every field.
 Json campaign_json(const Campaign& campaign);

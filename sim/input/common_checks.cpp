@@ -103,6 +103,9 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, no_mass(rig)));
     else if (const auto why = domain::too_heavy(loads_kg[i], rig); !why.empty())
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, why));
+    else if (const auto never = domain::never_lifted(loads_kg[i], rig, domain::most_pressure_Pa(rig));
+             !rig.has_angle() && !never.empty())
+      problems.warning(file.source, node.place, fmt::format("loads: {} is {}", node.text, never));
     else if (loads_kg[i] > 0.0 && loads_kg[i] < hardly_anything * domain::usual_load_kg(rig))
       problems.warning(
           file.source, node.place,

@@ -28,6 +28,19 @@ std::vector<std::vector<double>> numbers(const std::string& text) {
   return rows;
 }
 
+TEST_F(Dataset, AndCheckAskAboutALoadThatIsNeverLifted) {
+  std::string heavy = small_campaign;
+  heavy.replace(heavy.find("11.138"), 6, "111.38");
+  write_text(scratch / "small.yaml", heavy);
+  const char* const words =
+      "small.yaml:3:9: warning: loads: 111.38 kg is more than the muscle lifts, about 10";
+  EXPECT_TRUE(holds(run("check small.yaml").err, words));
+  const auto said = run("dataset small.yaml");
+  ASSERT_EQ(said.status, 0);
+  EXPECT_TRUE(holds(said.err, words)) << said.err;
+  EXPECT_TRUE(holds(run("check out/small").err, "the load hardly leaves its stop: load = 111.38 kg is more"));
+}
+
 TEST_F(Dataset, WritesMeasurementsAndApartTheTruth) {
   const auto said = run("dataset small.yaml");
   ASSERT_EQ(said.status, 0) << said.err;

@@ -229,6 +229,15 @@ TEST(Sanity, AllLoadsInAnotherUnitAreSaid) {
   expect(sound(), 2.20462, "these look like pounds, not kg: write lb");
 }
 
+TEST(Sanity, ALoadThatIsNeverLiftedIsSaid) {
+  auto data = measured_on({}, {11.138, 16.138, 111.38});
+  const auto list = said(data);
+  ASSERT_FALSE(list.empty());
+  EXPECT_TRUE(
+      holds(list.front(), "warning: runs r05, r06: the load hardly leaves its stop: load = 111.38 kg is "))
+      << list.front();
+}
+
 /// Runs 0 and 1 have the first load, 2 and 3 the second, 4 and 5 the third.
 domain::Dataset labelled(const domain::Dataset& sound_data, std::vector<std::size_t> runs,
                          const std::vector<double>& labels_kg) {
