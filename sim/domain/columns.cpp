@@ -86,8 +86,10 @@ std::string line_of(std::string_view quantity, const ColumnPlace& place) {
   line += ": {column: " + yaml_scalar(place.column) + ", unit: " + yaml_scalar(place.unit);
   if (place.zero != 0.0) line += ", zero: " + write_number(place.zero);
   if (place.factor != 1.0) line += ", factor: " + write_number(place.factor);
+  if (!place.missing.empty()) line += ", missing: " + place.missing;
   if (place.as != Role::reading) line += ", as: " + std::string(plant::name_of(place.as));
   if (!place.time.empty()) line += ", time: " + yaml_scalar(place.time);
+  if (place.late_s != 0.0) line += ", late: " + write_number(significant(1e3 * place.late_s, 9)) + " ms";
   if (!place.where.absent()) {
     std::string cells;
     for (const auto& [column, text] : place.where.cells)

@@ -37,7 +37,8 @@ struct ColumnPlace {
   double zero = 0.0, factor = 1.0;
   std::string missing{};  ///< a number that stands for none, such as -9999; empty: there is none
   Role as = Role::reading;
-  std::string time{};  ///< the column of its own stamps; empty: those of all
+  std::string time{};   ///< the column of its own stamps; empty: those of all
+  double late_s = 0.0;  ///< its stamps are too late by this
   RowFilter where{};
 
   bool absent() const { return column.empty(); }
@@ -60,6 +61,7 @@ struct ColumnPlace {
         "number is the time since the row before");
     visit("time", self.time,
           "column of its own stamps, where it has a clock of its own; in the unit of `time`");
+    visit("late", self.late_s, "s", -100.0, 100.0, "by which its stamps are too late");
     visit("where", self.where,
           "a table with one reading a row: the rows that hold this one, as {sensor: laser}");
   }
@@ -141,6 +143,7 @@ struct ColumnMap {
       report("rows_are_ticks", "and yet a column of time is named");
     if (!settled.absent() && (rows_are_ticks || !(*this)["time"].absent()))
       report("settled", "and yet the file's rows are said to be ticks, or to have times");
+    if ((*this)["time"].late_s != 0.0) report("time", "late is written for a column that is stamped late");
     for (const Quantity& quantity : quantities())
       if (quantity.key != "time" && (*this)[quantity].as == Role::interval)
         report(quantity.key, "only time is read as intervals");

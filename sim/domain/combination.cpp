@@ -1,4 +1,5 @@
 // The rules; see the header.
+#include <algorithm>
 #include <string_view>
 
 #include <sim/domain/combination.hpp>
@@ -40,6 +41,9 @@ struct Said {
   bool hangs() const { return rig.lifts_a_load() && !gives("contraction"); }
   bool has_load() const { return run.given_load_kg.has_value(); }
   bool points() const { return !map.settled.absent(); }
+  bool any_late() const {
+    return std::ranges::any_of(map.places, [](const ColumnPlace& place) { return place.late_s != 0.0; });
+  }
 };
 
 struct Rule {
@@ -114,6 +118,8 @@ constexpr auto rules = std::to_array<Rule>({
        return (!s.hangs() || s.rig.lever() != nullptr) && s.data.recorded.start == Start::moving;
      },
      "run {} has no hanging load; the first state can be estimated of such runs only"},
+    {"settled", [](const Said& s) { return s.points() && s.any_late(); },
+     "the rows of run {} are settled points: leave out `late` of its columns"},
     {"hold", [](const Said& s) { return s.points() && s.data.recorded.hold != Hold::usual; },
      "the rows of run {} are settled points: commands hold while a point is measured, pressures and lengths "
      "are there after half of it at most"},

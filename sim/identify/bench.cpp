@@ -33,10 +33,13 @@ double middle_of(std::vector<double> list) {
 }
 
 /// In so many digits that the last is smaller than the deviation.
-std::string number_of(double value, double deviation) {
-  if (!(deviation > 0.0) || value == 0.0) return fmt::format("{:.4g}", value);
+double rounded(double value, double deviation) {
+  if (!(deviation > 0.0) || value == 0.0) return domain::significant(value, 4);
   const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(deviation)) + 1.0;
-  return domain::write_number(domain::significant(value, std::clamp(static_cast<int>(digits), 2, 6)));
+  return domain::significant(value, std::clamp(static_cast<int>(digits), 2, 6));
+}
+std::string number_of(double value, double deviation) {
+  return domain::write_number(rounded(value, deviation));
 }
 
 std::string more_or_less(double value, const char* more = "more", const char* less = "less") {
@@ -82,7 +85,13 @@ class FaultReport {
     if (entry.bench->of == &Bench::ahead_s) {
       const std::string ms = number_of(1e3 * size.value, 1e3 * deviation);
       fault.words = fmt::format("the clock of the readings is {} ms ahead of that of the input", ms);
-      fault.write = fmt::format("add {} ms to the stamps of the readings", ms);
+      std::vector<std::string> keys{judged_key(run(0))};
+      for (const auto& kind : rows_.kinds)
+        if (kind) keys.push_back(data::told(*kind, data_.rig.pair() != nullptr).first);
+      std::vector<std::string> lines;
+      for (const std::string& key : keys)
+        lines.push_back(domain::line_of(key, later(place_of(run(0), key), -size.value, deviation)));
+      fault.write = fmt::format("columns: {{{}}}", fmt::join(lines, ", "));
     } else if (entry.bench->of == &Bench::clock) {
       fault.words = fmt::format("the clock of the readings runs {} % {}",
                                 number_of(100.0 * std::abs(size.value), 100.0 * deviation),
@@ -148,12 +157,15 @@ class FaultReport {
   }
 
   /// Of delays and drifts: what is wrong with readings, and what mends them.
-  void tell_of_time(BenchFault& fault, int which, const std::string& readings, double deviation) const {
+  void tell_of_time(BenchFault& fault, const domain::Run& of, int which, const std::string& readings,
+                    double deviation) const {
     const double value = fault.size.value;
     if (which == delays) {
       const std::string ms = number_of(1e3 * std::abs(value), 1e3 * deviation);
       fault.words = fmt::format("{} come {} ms {}", readings, ms, more_or_less(value, "late", "early"));
-      fault.write = fmt::format("shift their stamps by {}{} ms", value < 0.0 ? "+" : "-", ms);
+      const std::string key = judged_key(of);
+      fault.write =
+          fmt::format("columns: {{{}}}", domain::line_of(key, later(place_of(of, key), value, deviation)));
     } else {
       const std::string rate = data::amount_of(data_.judged(), std::abs(value), data_.rig);
       fault.words =
@@ -165,7 +177,7 @@ class FaultReport {
   void report_common(int which, const EachRun& of) {
     BenchFault fault = fault_of(which, middle_of(of.values), middle_of(of.deviations));
     for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
-    tell_of_time(fault, which, "the readings of every run", middle_of(of.deviations));
+    tell_of_time(fault, run(0), which, "the readings of every run", middle_of(of.deviations));
     list_.push_back(std::move(fault));
   }
 
@@ -186,7 +198,7 @@ class FaultReport {
                                 more_or_less(value, "high", "low"));
       fault.write = column_line(of, value, 1.0, deviation);
     } else if (which == delays || which == drifts) {
-      tell_of_time(fault, which, "the readings of run " + of.id, deviation);
+      tell_of_time(fault, of, which, "the readings of run " + of.id, deviation);
     } else {
       fault.words = fmt::format("the readings of run {} are {} % too {}", of.id,
                                 number_of(100.0 * std::abs(value), 100.0 * deviation),
@@ -201,14 +213,25 @@ class FaultReport {
                                                          : std::string(data::unit_in_words(data_.judged()));
   }
 
+  std::string judged_key(const domain::Run& of) const {
+    const auto gauge = of.judged_gauge();
+    return gauge ? data::told(*gauge, data_.rig.pair() != nullptr).first
+                 : std::string(plant::name_of(data_.judged()));
+  }
+  domain::ColumnPlace place_of(const domain::Run& of, const std::string& key) const {
+    return data::with_our_names(domain::merged(data_.columns, of.columns), data_.rig.command_unit())[key];
+  }
+  static domain::ColumnPlace later(domain::ColumnPlace place, double by_s, double deviation_s) {
+    place.late_s = rounded(place.late_s + by_s, deviation_s);
+    return place;
+  }
+
   /// A run's own place for the judged reading, with what is off taken out. Empty where its unit's size is not
   /// known here.
   std::string column_line(const domain::Run& of, double zero, double factor, double deviation) const {
     const auto gauge = of.judged_gauge();
-    const std::string key = gauge ? data::told(*gauge, data_.rig.pair() != nullptr).first
-                                  : std::string(plant::name_of(data_.judged()));
-    domain::ColumnPlace place =
-        data::with_our_names(domain::merged(data_.columns, of.columns), data_.rig.command_unit())[key];
+    const std::string key = judged_key(of);
+    domain::ColumnPlace place = place_of(of, key);
     const std::optional<double> size = gauge                  ? data::size_Pa(place.unit)
                                        : key == "contraction" ? of.ratio_per_unit
                                        : place.unit == "deg"  ? plant::degree_rad
@@ -217,11 +240,9 @@ class FaultReport {
     place.zero += zero / (place.factor * *size);
     place.factor *= factor;
     const double per = deviation / std::max(std::abs(place.factor * *size), 1e-300);
-    std::string text = fmt::format("columns: {{{}: {{column: {}, unit: {}", key, place.column, place.unit);
-    if (place.zero != 0.0) text += ", zero: " + number_of(place.zero, zero == 0.0 ? 0.0 : per);
-    if (place.factor != 1.0)
-      text += ", factor: " + number_of(place.factor, 0.1 * std::abs(place.factor) * deviation);
-    return text + "}}";
+    place.zero = rounded(place.zero, zero == 0.0 ? 0.0 : per);
+    if (place.factor != 1.0) place.factor = rounded(place.factor, 0.1 * std::abs(place.factor) * deviation);
+    return fmt::format("columns: {{{}}}", domain::line_of(key, place));
   }
 
   const Model& model_;

@@ -142,7 +142,7 @@ std::string list_of(const Table& table, const std::vector<std::size_t>& parts,
 bool has_own_clocks(const ColumnMap& map) {
   return std::ranges::any_of(domain::quantities(), [&](const domain::Quantity& quantity) {
     const ColumnPlace& place = map[quantity];
-    return !place.absent() && (!place.time.empty() || !place.where.absent());
+    return !place.absent() && (!place.time.empty() || !place.where.absent() || place.late_s != 0.0);
   });
 }
 
@@ -277,20 +277,27 @@ std::string spread_stamps(Table& table, const ColumnMap& map) {
   return done.rounded ? fmt::format("{} is rounded; rows are taken to lie evenly", time->in_file) : "";
 }
 
-void merge_clocks(Table& table, const ColumnMap& map, plant::CommandUnit commands) {
+void merge_clocks(Table& table, const ColumnMap& map, const plant::Rig& rig) {
   struct Series {
     Table::Column* column;
     std::vector<std::pair<double, std::size_t>> stamps;  ///< and their rows
     bool given;
   };
+  if (!has_own_clocks(map)) return;
+  if (map.rows_are_ticks && table.find(stamps_name) == nullptr) {
+    Table::Column ticks{.name = std::string(stamps_name), .in_file = "", .values = {}};
+    for (std::size_t row = 0; row < table.rows(); ++row)
+      ticks.values.push_back(static_cast<double>(row) * rig.tick_s);
+    table.columns.push_back(std::move(ticks));
+  }
   const Table::Column* common = table.find(stamps_name);
   std::vector<Series> all;
-  if (!has_own_clocks(map) || common == nullptr) return;
+  if (common == nullptr) return;
   std::vector<double> instants;
   for (Table::Column& column : table.columns) {
     if (column.name == stamps_name || column.kind == CellKind::label) continue;
-    const auto& quantities = domain::quantities(commands);
-    const domain::Quantity* found = named_quantity(column.name, map, commands);
+    const auto& quantities = domain::quantities(rig.command_unit());
+    const domain::Quantity* found = named_quantity(column.name, map, rig.command_unit());
     if (const auto ours = std::ranges::find(quantities, column.name, &domain::Quantity::column);
         found == nullptr && ours != quantities.end())
       found = &*ours;  // under its own name
@@ -301,8 +308,8 @@ void merge_clocks(Table& table, const ColumnMap& map, plant::CommandUnit command
     Series series{&column, {}, map.gives(*found) || found->is_command()};
     for (std::size_t row = 0; row < column.values.size(); ++row)
       if (!std::isnan(clock->values[row]) && !std::isnan(column.values[row]) && counts(row)) {
-        series.stamps.emplace_back(clock->values[row], row);
-        instants.push_back(clock->values[row]);
+        series.stamps.emplace_back(clock->values[row] - place.late_s, row);
+        instants.push_back(series.stamps.back().first);
       }
     std::ranges::stable_sort(series.stamps, {}, &std::pair<double, std::size_t>::first);
     all.push_back(std::move(series));

@@ -38,8 +38,8 @@ void order_rows(Table& table, const domain::ColumnMap& map, TableProblems& probl
 std::string spread_stamps(Table& table, const domain::ColumnMap& map);
 
 /// Quantities with a clock, or rows, of their own at the stamps of all of them; what is not read at one is
-/// NaN. In seconds. `commands`: in which the rig's valve takes them, as columns are called.
-void merge_clocks(Table& table, const domain::ColumnMap& map, plant::CommandUnit commands);
+/// NaN. In seconds. A file without time has the rig's ticks.
+void merge_clocks(Table& table, const domain::ColumnMap& map, const plant::Rig& rig);
 
 /// Rows from `from` to `to` since the first. In seconds.
 void keep_window(Table& table, const domain::Run& run, TableProblems& problems);

@@ -130,7 +130,7 @@ void read_table_of(const Source& source, const ColumnMap& map, const Dataset& da
   convert_columns(table, map, dataset.rig);
   current = table.find(command);
   if (current != nullptr) look_for_venting(table, *current, dataset.rig.valve, found);
-  if (found.count() == 0) merge_clocks(table, map, dataset.rig.command_unit());
+  if (found.count() == 0) merge_clocks(table, map, dataset.rig);
   if (found.count() == 0) keep_window(table, run, found);
   if (Table::Column* time = table.find("time_s"); time != nullptr && !dataset.own_clock && run.from_s > 0.0)
     for (double& at_s : time->values) at_s -= run.from_s;  // its first row is tick 0

@@ -84,6 +84,33 @@ TEST_F(Arranged, ReadingsWithAClockOfTheirOwn) {
   EXPECT_TRUE(std::isnan(data.runs[0].measured->read("contraction")[0]));
 }
 
+TEST_F(Arranged, ReadingsThatAreStampedLate) {
+  const std::string table = "t,p,x\n0,1,0\n20,2,1\n40,3,2\n60,4,3\n";
+  const Dataset data = read(table, in_ms, "column: x, unit: mm, late: 35 ms");
+  ASSERT_EQ(times(data).size(), 6u) << "at 5 and 25 ms, too; the first two were read before the input";
+  EXPECT_NEAR(times(data)[1], 0.005, 1e-12);
+  const auto& read_ratio = data.runs[0].measured->read("contraction");
+  EXPECT_TRUE(std::isnan(read_ratio[0]));
+  EXPECT_NEAR(read_ratio[1] * data.rig.muscle.rest_length_m, 0.002, 1e-12);
+  EXPECT_NEAR(read_ratio[3] * data.rig.muscle.rest_length_m, 0.003, 1e-12);
+  EXPECT_EQ(times(read(table, in_ms, "column: x, unit: mm, late: 20 ms")).size(), 4u) << "on a stamp";
+  EXPECT_TRUE(holds(refused(table, "column: t, unit: ms, late: 5 ms"), "late"));
+}
+
+// What the rig's tick says of rows that have no time is said of their readings, too.
+TEST_F(Arranged, ReadingsWithoutTimeAreStampedLate) {
+  place_.write("r.csv", "current_mA,x\n4,0\n4,1\n5,2\n6,3\n");
+  const std::string
+      head = "schema: mckibben-dataset/1\nrig: thesis\ncolumns:\n  ",
+      run = "  contraction: {column: x, unit: mm, late: 12 ms}\nruns: [{id: r, file: r.csv, load: 5 kg}]\n";
+  place_.write("dataset.yaml", head + "rows_are_ticks: true\n" + run);
+  const Dataset data = read_dataset(place_);
+  EXPECT_EQ(times(data).size(), 4u);
+  EXPECT_NEAR(data.runs[0].measured->read("contraction")[0] * data.rig.muscle.rest_length_m, 0.001, 1e-12);
+  place_.write("dataset.yaml", head + "settled: {each: 5 s}\n" + run);
+  EXPECT_THROW(read_dataset(place_), BadInput);
+}
+
 TEST_F(Arranged, AnotherClockBeforeAQuantityIsAsked) {
   const std::string two = "tp,p,time_x,x\n0,1,0,1\n20,2,12,2\n40,3,24,3\n60,4,36,4\n";
   EXPECT_TRUE(holds(refused(two, "column: tp, unit: ms"), "r.csv:1:6",

@@ -37,6 +37,9 @@ TEST(Faults, ARunThatIsLateIsSaidInTheVerdictAndShifted) {
   EXPECT_EQ(found.bench[0].name, "delays_differ");
   EXPECT_EQ(found.bench[0].runs, std::vector<std::string>{"r02"});
   EXPECT_TRUE(surrounds(found.bench[0].size, 0.036));
+  EXPECT_TRUE(found.bench[0].write.starts_with(
+      "columns: {contraction: {column: contraction_ratio, unit: 1, late: 36"))
+      << found.bench[0].write;
   EXPECT_LT(found.runs[1].corrected_rmse, 2.0 * found.gap.noise_floor);
 }
 
