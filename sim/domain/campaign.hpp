@@ -49,7 +49,10 @@ struct Campaign {
   std::uint64_t seed = 1;
   Variation vary;
 
-  std::vector<InputFile> inputs;  ///< the files it was read from
+  std::vector<InputFile> inputs;  ///< the files it was read from, its own first
+
+  /// The verb and file that make it.
+  std::string job() const { return "dataset " + (inputs.empty() ? name : inputs.front().name); }
 
   static void fields(auto& self, auto& visit) {
     visit("name", self.name, "name of the results' folder; the file's name if left out");

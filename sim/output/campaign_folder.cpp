@@ -146,7 +146,7 @@ CampaignFolder::CampaignFolder(const fs::path& destination, const domain::Campai
   std::erase(formats_, "csv");
   std::sort(formats_.begin(), formats_.end());
   formats_.erase(std::unique(formats_.begin(), formats_.end()), formats_.end());
-  open(plan_of(campaign_, jobs_, formats_).dump(2) + "\n", files_in, "dataset " + campaign.name, {truth_},
+  open(plan_of(campaign_, jobs_, formats_).dump(2) + "\n", files_in, campaign.job(), {truth_},
        [this](bool kept) {
          if (kept) remove_damaged();
        });
@@ -262,8 +262,7 @@ void CampaignFolder::publish(const std::vector<run::EndedRun>& runs, const Repor
       for (const auto& file : record.value("files", Json::array()))
         files[file.at("name").get<std::string>()] = file.at("sha256").get<std::string>();
     }
-    ResumedFolder::publish({{"truth", truth_, "truth of " + campaign_.name},
-                            {"data", destination_, "dataset " + campaign_.name}},
+    ResumedFolder::publish({{"truth", truth_, campaign_.job()}, {"data", destination_, campaign_.job()}},
                            files);
   });
 }

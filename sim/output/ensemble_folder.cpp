@@ -93,15 +93,14 @@ EnsembleFolder::EnsembleFolder(const fs::path& destination, const domain::Campai
       shape_(campaign, keep),
       moments_(shape_.of_run.size()) {
   const auto files = [this](const std::string& plan) { return files_in(unfinished_, plan); };
-  open(
-      plan_of(campaign, shape_, keep).dump(2) + "\n", files, "ensemble " + campaign.name, {}, [&](bool kept) {
-        fs::create_directories(unfinished_ / "blocks");
-        fs::create_directories(unfinished_ / "data");
-        if (kept)
-          say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(),
-                           runs_there(), shape_.runs));
-        into_file([&] { file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_)); });
-      });
+  open(plan_of(campaign, shape_, keep).dump(2) + "\n", files, campaign.job(), {}, [&](bool kept) {
+    fs::create_directories(unfinished_ / "blocks");
+    fs::create_directories(unfinished_ / "data");
+    if (kept)
+      say_(fmt::format("{}: {} of {} runs are there already; going on", unfinished_.string(), runs_there(),
+                       shape_.runs));
+    into_file([&] { file_.emplace(unfinished_ / "data" / ensemble_file, layout_of(campaign_, shape_)); });
+  });
 }
 
 fs::path EnsembleFolder::file_of(std::size_t block) const {
@@ -226,7 +225,7 @@ void EnsembleFolder::publish() {
   writing(unfinished_, [&] {
     const std::string text = document(), data = "data/";
     write_staged(unfinished_ / data / document_file, text);
-    ResumedFolder::publish({{"data", destination_, "ensemble " + campaign_.name}},
+    ResumedFolder::publish({{"data", destination_, campaign_.job()}},
                            {{data + document_file, input::sha256_hex(text)},
                             {data + ensemble_file, digest_of(unfinished_ / data / ensemble_file)}});
   });

@@ -28,6 +28,12 @@ std::vector<std::vector<double>> numbers(const std::string& text) {
   return rows;
 }
 
+TEST_F(Dataset, BothFoldersNameTheCommandThatWroteThem) {
+  ASSERT_EQ(run("dataset small.yaml --out d").status, 0);
+  EXPECT_TRUE(holds(run("replay d-truth").err, "written by `mckibben dataset small.yaml`"));
+  EXPECT_TRUE(holds(run("run d").err, "written by `mckibben dataset small.yaml`"));
+}
+
 TEST_F(Dataset, AndCheckAskAboutALoadThatIsNeverLifted) {
   std::string heavy = small_campaign;
   heavy.replace(heavy.find("11.138"), 6, "111.38");
