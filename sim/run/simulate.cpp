@@ -31,6 +31,7 @@ class Run : public ride::BatchItem {
         disturbance_(plan.noise, plan.rig, plan.seed, plan.stream) {
     recording_.samples.reserve(plan_.ticks);
     ask_timed([&] { return controller_.rest(); });
+    drive_.stray_current_mA = drive_.opposite.stray_current_mA = 0.0;  // one draw is no noise
     rider_.start(ride::settling(drive_, plan_.rig), time_s(begin_));
   }
 

@@ -262,6 +262,20 @@ TEST(Simulate, ASlowGaugeShowsAReadingWithItsNoiseUntilTheNext) {
   EXPECT_NE(shown_Pa(0), shown_Pa(5));
 }
 
+// One draw of it, held while the rig settles, would be an offset of the current.
+TEST(Simulate, TheRigSettlesWithoutNoiseOfItsCurrent) {
+  controllers::StepCurrent rests;
+  rests.start_mA = 10.0;
+  rests.moves = {};
+  RunPlan s = plan(11.138, 40);
+  const auto quiet = ride(s, rests).samples;
+  s.noise.current_mA = 0.05;
+  const auto noisy = ride(s, rests).samples;
+  EXPECT_EQ(noisy[0].state.joint.contraction_ratio, quiet[0].state.joint.contraction_ratio);
+  EXPECT_EQ(noisy[0].state.side.valve_pressure_Pa, quiet[0].state.side.valve_pressure_Pa);
+  EXPECT_NE(noisy[39].state.side.valve_pressure_Pa, quiet[39].state.side.valve_pressure_Pa);
+}
+
 TEST(Simulate, SameSeedAndStreamGiveTheSameBytesOthersDoNot) {
   RunPlan s = plan(11.138, 300);
   s.noise = {1e-4, 200.0, 0.02};
