@@ -361,19 +361,11 @@ std::pair<Error, double> Error::fitted(const Eigen::VectorXd& residual, const Ei
   return {std::move(result), best};
 }
 
-// From three beginnings, for the numbers have more than one best: here, as begun, and all of it white.
 Error Error::fitted_anew(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
                          const Eigen::VectorXd& variance) const {
-  auto best = fitted(residual, columns, variance, {0.5});
-  const auto keep = [&](std::pair<Error, double> other) {
-    if (other.second > best.second) best = std::move(other);
-  };
-  keep(begun().fitted(residual, columns, variance, {1.0, 0.5}));
-  Error white = best.first;
-  white.logs_[0] = std::log(std::hypot(std::exp(white.logs_[0]), std::exp(white.logs_[model_sd])));
-  white.logs_[model_sd] = white.logs_[0] - std::log(10.0);
-  keep(white.fitted(residual, columns, variance, {0.5}));
-  return std::move(best.first);
+  auto [one, value_of_one] = fitted(residual, columns, variance, {0.5});
+  auto [other, value_of_other] = begun().fitted(residual, columns, variance, {1.0, 0.5});
+  return value_of_one >= value_of_other ? std::move(one) : std::move(other);
 }
 
 }  // namespace mckibben::identify

@@ -25,13 +25,12 @@ bool has(const Names& names, const std::string& name) {
   return std::ranges::binary_search(names, name);
 }
 
-/// Whether a model predicts unseen runs as well as the chosen one, and is not far less probable: by no more
-/// than runs disagree about it (Vuong 1989).
+/// Whether a model predicts unseen runs as well as the chosen one, and is no less probable, by more than runs
+/// disagree about it (Vuong 1989).
 bool rivals_chosen(const Identified& found, std::size_t i) {
   const Judged &chosen = found.table[found.decision.chosen], &other = found.table[i];
   const auto [nats, error] = loss(chosen.held_out, other.held_out);
-  return nats <= std::max(decisive.errors * error, decisive.strong) &&
-         other.score > chosen.score - std::max(-std::log(decisive.mass), error);
+  return std::max(nats, chosen.score - other.score) <= std::max(decisive.errors * error, decisive.strong);
 }
 
 EffectName who(const Dictionary& dictionary, const std::string& name) {
