@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include <sim/diagnose/noise.hpp>
 #include <sim/identify/rows.hpp>
@@ -100,20 +101,12 @@ void Rows::find_counts() {
 void Rows::find_what_stays() {
   stays = Eigen::VectorXd::Zero(size());
   if (!(count > 0.0)) return;
-  constexpr Eigen::Index least = 25;  // rows either way, over which the speed is taken; a rest is longer
+  constexpr Eigen::Index far = 25;  // rows, over which the speed is taken
   for (const Block& block : blocks) {
     if (!is_judged(block)) continue;
     const auto y = read.segment(block.begin, block.rows) / count;
-    Eigen::Index first = 0, last = 0;
     for (Eigen::Index i = 0; i < block.rows; ++i) {
-      const auto within = [&](Eigen::Index row) { return std::abs(y[row] - y[i]) < 1.5; };
-      if (i == 0 || y[i] != y[i - 1]) {
-        first = last = i;
-        while (first > 0 && within(first - 1)) --first;
-        while (last + 1 < block.rows && within(last + 1)) ++last;
-      }
-      const Eigen::Index low = std::max<Eigen::Index>(std::min(first, i - least), 0),
-                         up = std::min(std::max(last, i + least), block.rows - 1);
+      const Eigen::Index up = std::min(i + far, block.rows - 1), low = std::max<Eigen::Index>(i - far, 0);
       const double s =
           std::max(std::abs(y[up] - y[low]), 0.5) / static_cast<double>(std::max<Eigen::Index>(up - low, 1));
       if (s < 0.2113) stays[block.begin + i] = 1.0 - 6.0 * s * (1.0 - s);
