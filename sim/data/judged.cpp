@@ -39,7 +39,8 @@ class Judging {
     if (raw_.gives_length()) leave_out_slack();
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
     raw_.filled_Pa = first_pressure_Pa(raw_);
-    fast_ = row_s_ / median_gap_s(raw_) >= enough_readings && !raw_.counted;
+    gap_s_ = median_gap_s(raw_);
+    fast_ = row_s_ / gap_s_ >= enough_readings && !raw_.counted;
     Measurement driving = fast_ ? thinned() : as_recorded();
     judge(driving);
     shake(driving);
@@ -87,7 +88,7 @@ class Judging {
     same.time_s = raw_.time_s;
     std::erase_if(same.columns = raw_.columns, [](const MeasuredColumn& column) { return !column.given; });
     const bool each = !raw_.counted || raw_.gives_length();
-    const double least_s = row_s_ - 0.5 * median_gap_s(raw_);
+    const double least_s = row_s_ - 0.5 * gap_s_;
     double last_s = begin_s() + raw_.recorded.skip_s - row_s_;
     for (std::size_t k = 0; k < raw_.time_s.size(); ++k) {
       const bool counts_each = each || raw_.time_s[k] - last_s >= least_s;
@@ -319,8 +320,8 @@ class Judging {
 
   domain::Run& run_;
   Measurement raw_;
-  bool angle_;  // is judged
-  double row_s_;
+  bool angle_;                  // is judged
+  double row_s_, gap_s_ = 0.0;  ///< between rows; between stamps that are read
   std::mt19937_64 random_;
   bool fast_ = false;
   std::optional<domain::Beside> judged_gauge_{};  // where only pressures were read

@@ -184,8 +184,7 @@ std::string too_heavy(double load_kg, const plant::Rig& rig) {
 }
 
 double most_pressure_Pa(const plant::Rig& rig) {
-  if (rig.valve.seals()) return rig.valve.fill_pressure_Pa;
-  return rig.valve.is_on_off() ? rig.valve.supply_pressure_Pa : rig.valve.span_pressure_Pa;
+  return rig.valve.seals() ? rig.valve.fill_pressure_Pa : rig.valve.span_pressure_Pa;
 }
 
 std::string never_lifted(double load_kg, const plant::Rig& rig, double pressure_Pa) {
