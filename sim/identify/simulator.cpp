@@ -46,9 +46,11 @@ struct StartNumber {
   double ride::Underway::*of;
   double deviation;
 };
-constexpr std::array<StartNumber, 4> start_numbers{{{&ride::Underway::off_rise_m, 2e-4},
+constexpr std::array<StartNumber, 6> start_numbers{{{&ride::Underway::off_rise_m, 2e-4},
                                                     {&ride::Underway::off_speed_m_per_s, 5e-3},
                                                     {&ride::Underway::off_acceleration_m_per_s2, 1.0},
+                                                    {&ride::Underway::off_muscle_Pa, 2e4},
+                                                    {&ride::Underway::off_valve_Pa, 2e4},
                                                     {&ride::Underway::memories, 1.0}}};
 
 /// How one begins on its way: by what is known, and by its setting.
@@ -249,11 +251,8 @@ Wander Simulator::wander(const Setting& setting) const {
     double load = 0.0;  ///< share of it that is added
     const StartNumber* start = nullptr;
   };
-  std::vector<const StartNumber*> starts;
-  if (data.recorded.start == domain::Start::moving)
-    for (const StartNumber& number : start_numbers)
-      if (number.of != &ride::Underway::memories || setting.rig.remembers()) starts.push_back(&number);
-  made.starts = starts.size();
+  // As many for every setting, as one begins where another was.
+  made.starts = data.recorded.start == domain::Start::moving ? start_numbers.size() : 0;
   std::vector<std::vector<Lane>> lanes;
   std::size_t most = 0;
   for (const std::size_t run : rows_.runs) {
@@ -275,9 +274,9 @@ Wander Simulator::wander(const Setting& setting) const {
         all.push_back(knots[k] +
                       1e9 * static_cast<double>(muscle));  // the muscles' wanders know nothing of each other
       }
-    for (const StartNumber* number : starts) list.push_back({.start = number});
+    for (std::size_t i = 0; i < made.starts; ++i) list.push_back({.start = &start_numbers.at(i)});
     for (const double side : {load_step, -load_step}) list.push_back({.load = side});
-    most = std::max(most, all.size() + starts.size());
+    most = std::max(most, all.size() + made.starts);
     made.knots.push_back(std::move(all));
   }
   made.columns = Eigen::MatrixXd::Zero(rows_.size(), static_cast<Eigen::Index>(most));

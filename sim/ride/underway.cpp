@@ -88,10 +88,14 @@ void set_off(Rider& rider, const Underway& seen) {
   state.joint = {rise_m / length_m, speed_m_per_s / length_m};
   now.held.given = now.drive.given();
   now.held.pressure_rate_Pa_per_s = 0.0;
+  const bool asks = !now.drive.muscle_pressure_Pa && !plant.rig().valve.seals();
   if (!now.drive.muscle_pressure_Pa && seen.muscle_pressure_Pa) {
     state.side.muscle_pressure_Pa = plant.rig().effects.true_Pa(*seen.muscle_pressure_Pa);
     if (!now.drive.valve_pressure_Pa) state.side.valve_pressure_Pa = state.side.muscle_pressure_Pa;
+  } else if (asks) {
+    state.side.muscle_pressure_Pa += seen.off_muscle_Pa;
   }
+  if (asks && !now.drive.valve_pressure_Pa) state.side.valve_pressure_Pa += seen.off_valve_Pa;
   if (plant.side().stretches()) stretch_cord(rider, speed_m_per_s, acceleration_m_per_s2);
   SomeMemories all;
   all.fill(true);

@@ -17,6 +17,8 @@ struct Underway {
   double memories = 0.0;
   /// How far the load is off what follows from these now, where they are late: the rise was so all the while.
   double off_rise_m = 0.0, off_speed_m_per_s = 0.0, off_acceleration_m_per_s2 = 0.0;
+  /// How far pressures are off what is asked for, which they follow late. None of one that is given or read.
+  double off_muscle_Pa = 0.0, off_valve_Pa = 0.0;
 };
 
 /// Of a hanging load that has been started; its drive holds.

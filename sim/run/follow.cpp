@@ -12,6 +12,7 @@ namespace mckibben::run {
 namespace {
 
 constexpr double never_s = -std::numeric_limits<double>::infinity();
+constexpr double run_in_s = 1.0;  // several lags of valve and hose
 
 }  // namespace
 
@@ -21,20 +22,34 @@ Follower::Follower(std::vector<ride::Rider> riders, const plant::Rig& rig, Cours
       course_(std::move(course)),
       disturbance_(std::move(disturbance)),
       riders_(std::move(riders)) {
-  if (!course_.begins) settling_ = std::lround(rig_.settling_time_s / rig_.tick_s);
-  for (std::size_t i = 0; i < riders_.size(); ++i) {
+  settling_ = ticks_before();
+  for (std::size_t i = 0; i < riders_.size(); ++i)
     riders_[i].start(disturbed(settling(i), i, never_s, never_s), before_s(settling_));
-    if (!course_.begins) continue;
-    ride::Underway begins = *course_.begins;
-    if (disturbance_.begin) disturbance_.begin(i, begins);
-    ride::set_off(riders_[i], begins);
-  }
+}
+
+long Follower::ticks_before() const {
+  return std::lround((course_.begins ? run_in_s : rig_.settling_time_s) / rig_.tick_s);
 }
 
 ride::Drive Follower::settling(std::size_t rider) const {
   ride::Drive drive = course_.drives.front();
+  if (course_.begins) {  // commands came as they will go on: odd about the first stamp
+    const double as_late_s = 2.0 * course_.time_s.front() - before_s(settling_);
+    const auto after = std::ranges::upper_bound(course_.time_s, as_late_s + ride::same_instant_s);
+    const ride::Drive& later = course_.drives[static_cast<std::size_t>(after - course_.time_s.begin() - 1)];
+    drive.current_mA = 2.0 * drive.current_mA - later.current_mA;
+    drive.opposite.current_mA = 2.0 * drive.opposite.current_mA - later.opposite.current_mA;
+  }
   if (course_.filled_Pa) drive.muscle_pressure_Pa = course_.filled_Pa;
   return ride::settling(drive, riders_[rider].plant().rig());
+}
+
+void Follower::set_off() {
+  for (std::size_t i = 0; i < riders_.size(); ++i) {
+    ride::Underway begins = *course_.begins;
+    if (disturbance_.begin) disturbance_.begin(i, begins);
+    ride::set_off(riders_[i], begins);
+  }
 }
 
 ride::Drive Follower::disturbed(ride::Drive drive, std::size_t rider, double from_s, double to_s) const {
@@ -46,12 +61,16 @@ bool Follower::go_on() {
   if (has_settled_ && k_ == 0) settled_a_tick();
   if (settling_ > 0) {
     has_settled_ = true;
-    const double until_s = before_s(--settling_);
+    const double until_s = before_s(settling_ - 1);
     for (std::size_t i = 0; i < riders_.size(); ++i)
       riders_[i].hold(disturbed(settling(i), i, never_s, never_s), until_s);
+    --settling_;
     return true;
   }
-  if (k_ == 0) begin();
+  if (k_ == 0) {
+    if (course_.begins) set_off();
+    begin();
+  }
   const double until_s = course_.until_s(k_, rig_.tick_s);
   const ride::Drive drive = course_.toward(k_);
   for (std::size_t i = 0; i < riders_.size(); ++i)  // forces are those of the way ahead
@@ -100,7 +119,7 @@ void Following::end(const engine::Counters& solver, const engine::NumericalFailu
       recording_.imbalance =
           rider.plant().imbalance(first.state, last.state, last.ledger, first.cords(), last.memory);
     if (solver.stiff_from_tick >= 0)
-      recording_.solver.stiff_from_tick -= std::lround(rig().settling_time_s / rig().tick_s);
+      recording_.solver.stiff_from_tick -= ticks_before();
     note_slack(recording_, rig());
   }
   done_(std::move(recording_));

@@ -1,7 +1,8 @@
 // Rigs that follow what drives them from stamp to stamp, whatever it is and however unequal the stamps:
 // commands, given pressures, a given length or force; one muscle or two; ticks as well.
 //
-//   settle: the first drive is held for the settling time, in steps of a tick; or the rig is on its way
+//   settle: the first drive is held for the settling time, in steps of a tick; a rig that is on its way runs
+//   in instead: pressures come to what they are under a moving command, then the load is put where it was seen
 //   row k = (t_k, x-); then a command is held until t_(k+1), a given pressure or length runs straight to its
 //   next
 #pragma once
@@ -45,6 +46,8 @@ class Follower : public ride::BatchItem {
  protected:
   const Course& course() const { return course_; }
   const plant::Rig& rig() const { return rig_; }
+  /// That a rig settles, or runs in, before the first stamp.
+  long ticks_before() const;
 
  private:
   virtual void settled_a_tick() {}
@@ -56,8 +59,9 @@ class Follower : public ride::BatchItem {
     return course_.time_s.front() - static_cast<double>(ticks) * rig_.tick_s;
   }
 
-  /// What acts before the first stamp.
+  /// What acts next before the first stamp.
   ride::Drive settling(std::size_t rider) const;
+  void set_off();
   ride::Drive disturbed(ride::Drive drive, std::size_t rider, double from_s, double to_s) const;
 
   plant::Rig rig_;

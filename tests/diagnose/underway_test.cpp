@@ -2,12 +2,14 @@
 // what a given pressure leaves to be seen.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/catalogue.hpp>
 #include <sim/diagnose/experiment.hpp>
 #include <sim/diagnose/priors.hpp>
+#include <sim/run/follow.hpp>
 #include <sim/run/replay.hpp>
 
 #include "residuals.hpp"
@@ -60,6 +62,42 @@ TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
   plant::Rig stiffer = creeping;  // a wrong rig stays wrong
   stiffer.effects.get<plant::BladderCreep>().stiffness_N_per_m = 320.0;
   EXPECT_GT(mean_square(residuals_of(experiment, stiffer, {0})), 0.5);
+}
+
+// Valve and muscle are behind a moving command when the recording begins, and a late command is one from
+// before it.
+TEST(Underway, WithoutAGaugePressuresComeFromHowCommandsGoOn) {
+  domain::Dataset data;
+  data.rig.effects.get<plant::CommandDelay>().time_s = 0.04;
+  run::Course course;
+  for (int k = 0; k < 600; ++k) {
+    course.time_s.push_back(0.01 * k);
+    course.drives.emplace_back().current_mA = 9.0 - 4.0 * std::cos(0.5 * std::numbers::pi * 0.01 * k);
+    course.rows.push_back(static_cast<std::size_t>(k));
+  }
+  const run::Recording whole = run::follow(data.rig, 12.0, course);
+  constexpr std::size_t from = 130, to = 330;  // rising
+  domain::Run& run = data.runs.emplace_back();
+  data.own_clock = true;
+  data.recorded.start = domain::Start::moving;
+  run.load_kg = 12.0;
+  run.rest_length_m = data.rig.muscle.rest_length_m;
+  domain::Measurement& measured = run.measured.emplace();
+  measured.recorded = data.recorded;
+  const auto ratio = [&](std::size_t k) { return whole.samples[k].state.joint.contraction_ratio; };
+  const auto& first = whole.samples[from].state.joint;
+  measured.first = {first.contraction_ratio,
+                    first.contraction_speed_per_s,
+                    (ratio(from + 1) - 2.0 * ratio(from) + ratio(from - 1)) / 1e-4,
+                    {}};
+  for (std::size_t k = from; k < to; ++k) {
+    measured.rows.push_back(measured.time_s.size());
+    measured.time_s.push_back(course.time_s[k]);
+    measured.give("command").push_back(course.drives[k].current_mA);
+    run.contraction_ratio.push_back(ratio(k));
+  }
+  const auto replayed = run::replay(data, 1, [](const auto&, auto, auto) {});
+  EXPECT_LT(replayed.front().gaps.front().largest, 4e-4);  // 2.5e-3 by the first command alone
 }
 
 // What an encoder shows late, or on another scale, a replay compares as a diagnosis does.
