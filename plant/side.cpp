@@ -29,12 +29,6 @@ double SideOf<P>::reference_slope_Pa_per_mA(double current_mA) const {
 }
 
 template <class P>
-double SideOf<P>::way(double current_mA) const {
-  const Valve& valve = rig_.valve;
-  return std::clamp((current_mA - valve.zero_command) / (valve.span_command - valve.zero_command), 0.0, 1.0);
-}
-
-template <class P>
 double SideOf<P>::air_kg(const Stroke<double>& joint, const SideState<double>& state,
                          const SideMemory<double>& memory) const {
   const double atmosphere = rig_.gas.atmosphere_Pa;

@@ -79,8 +79,6 @@ class SideOf {
   }
 
   double reference_pressure_Pa(double current_mA) const;
-  /// How far a command is on the way from zero_command to span_command, 0 to 1.
-  double way(double current_mA) const;
   /// How much more a mA asks for [Pa/mA]; nothing beyond the valve's trimmed range.
   double reference_slope_Pa_per_mA(double current_mA) const;
   /// Gas [kg] in valve and muscle, and in the valve alone, at the walls' temperature.

@@ -108,6 +108,11 @@ struct ValveOf {
     return command_unit == CommandUnit::mA ? 1.0 : (span_command - zero_command) / thesis_span_mA;
   }
 
+  /// How far a command is on the way from zero_command to span_command, 0 to 1.
+  double way(double command) const {
+    return std::clamp((command - zero_command) / (span_command - zero_command), 0.0, 1.0);
+  }
+
   template <class Self, class Visitor>
   static void fields(Self& self, Visitor& visit) {
     visit("kind", self.kind,

@@ -34,7 +34,7 @@ struct BladderElasticityOf {
   static constexpr std::array hooks{Hook::pull};
   static constexpr std::array variants{
       Variant{"linear", "stiffness", 0.0, 100.0, Sign::positive, 0.1},
-      Variant{"saturating", "force", 0.0, 10.0, Sign::positive, 0.01, "ratio", 0.02, 0.06, 0.15},
+      Variant{"saturating", "force", 0.0, 10.0, Sign::positive, 0.01, "ratio", 0.01, 0.04, 0.15},
       Variant{"saturating_linear", "stiffness", 0.0, 100.0, Sign::positive, 0.1, "", 0.0, 0.0, 0.0,
               "saturating"}};
 

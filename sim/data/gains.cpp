@@ -136,7 +136,6 @@ std::optional<Finding> reversed_flow(const domain::Dataset& data) {
   if (!valve.is_on_off() || valve.ports != plant::Ports::two || data.rig.pair() != nullptr ||
       data.rig.has_angle() || data.judged() == domain::Judged::force)
     return std::nullopt;
-  const double span = valve.span_command - valve.zero_command;
   const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(of_gains.flow_s / data.row_s())));
   double along = 0.0, all = 0.0;
   std::vector<std::size_t> runs;
@@ -151,8 +150,7 @@ std::optional<Finding> reversed_flow(const domain::Dataset& data) {
       const double rise = read[k + rows] - read[k];
       if (missing(k) || missing(k + rows) || !(std::abs(rise) > least)) continue;
       double fills = 0.0;
-      for (std::size_t row = k; row < k + rows; ++row)
-        fills += 2.0 * std::clamp((command[row] - valve.zero_command) / span, 0.0, 1.0) - 1.0;
+      for (std::size_t row = k; row < k + rows; ++row) fills += 2.0 * valve.way(command[row]) - 1.0;
       along += fills * rise;
       all += std::abs(fills * rise);
     }

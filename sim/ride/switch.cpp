@@ -25,7 +25,7 @@ void Switch::ask(bool want, double now_s, const plant::Valve& valve) {
 void Switches::follow(const plant::Side& side, double current_mA, double now_s, plant::HeldSide& held) {
   const plant::Valve& valve = side.rig().valve;
   const bool either = valve.ports == plant::Ports::three;
-  const double way = side.way(current_mA), duty = either ? way : std::abs(2.0 * way - 1.0);
+  const double way = valve.way(current_mA), duty = either ? way : std::abs(2.0 * way - 1.0);
   if (valve.switching == plant::Switching::averaged) {
     held.fills = either || way > 0.5 ? duty : 0.0;
     held.vents = either ? 1.0 - duty : way < 0.5 ? duty : 0.0;
