@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 
 namespace mckibben::bench {
@@ -22,6 +23,10 @@ class Device {
 
   /// Encoder counts since it was opened. Throws DeviceFailure.
   virtual std::int64_t counts(double now_s) = 0;
+  /// Whether it reads a gauge on the muscle.
+  virtual bool has_gauge() const { return false; }
+  /// What that gauge shows; NaN without one. Throws DeviceFailure.
+  virtual double gauge_Pa(double) { return std::numeric_limits<double>::quiet_NaN(); }
   /// The command of its output from now on, in what the rig's valve takes. Throws DeviceFailure.
   virtual void put(double current_mA, double now_s) = 0;
 };

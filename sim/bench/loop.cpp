@@ -70,8 +70,10 @@ class Loop {
     });
     begin_s_ = clock_.now_s() + plan_.rig.tick_s;
     for (std::int64_t k = begin_; k < plan_.ticks; ++k) {
-      const double late_s = wait_for(k), read_s = since_s();
+      wait_for(k);
+      const double read_s = since_s();
       const std::int64_t counts = device_.counts(read_s);
+      const double gauge_Pa = device_.gauge_Pa(read_s);
       counts_.look(counts, k, 1 + missed_in_a_row_);
       controller_.show({k, static_cast<double>(k) * plan_.rig.tick_s, counts});
       wanted_mA = controller_.answer([&] {
@@ -85,7 +87,7 @@ class Loop {
       device_.put(current_mA, sent_s);
       counts_.put(current_mA);
       if (k < 0) continue;
-      recorded_.rows.push_back({k, current_mA, counts, read_s, sent_s, late_s});
+      recorded_.rows.push_back({k, current_mA, counts, gauge_Pa, read_s, sent_s});
       plan_.record(recorded_.rows.back());
     }
     wait_for(plan_.ticks);  // the last current has its tick, too
@@ -116,8 +118,8 @@ class Loop {
 
   double at_s(std::int64_t k) const { return begin_s_ + static_cast<double>(k - begin_) * plan_.rig.tick_s; }
 
-  /// How late the tick begins. One that is over before it begins is missed; the next ones may catch up.
-  double wait_for(std::int64_t k) {
+  /// A tick that is over before it begins is missed; the next ones may catch up.
+  void wait_for(std::int64_t k) {
     constexpr double look_each_s = 0.05;
     look_at_user();
     for (double now_s; (now_s = clock_.now_s()) < at_s(k); look_at_user())
@@ -130,7 +132,6 @@ class Loop {
           fmt::format("watchdog: {} ticks of {:g} ms in a row were missed, up to tick {}; the "
                       "rig's tick may be longer, the machine less busy, or --most-missed larger",
                       missed_in_a_row_, 1e3 * plan_.rig.tick_s, k));
-    return late_s;
   }
 
   double allowed(double wanted_mA) {

@@ -22,8 +22,8 @@ struct Row {
   std::int64_t tick;
   double current_mA;  ///< as the DAC gives it
   std::int64_t counts;
-  double read_s, sent_s;  ///< when the counts were read and the command went out, since tick 0
-  double late_s;          ///< by which the tick began after its time
+  double gauge_Pa;        ///< NaN if the device has no gauge
+  double read_s, sent_s;  ///< when the readings were taken and the command went out, since tick 0
 };
 
 struct LoopPlan {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <plant/instruments.hpp>
 #include <sim/bench/device.hpp>
@@ -18,19 +19,24 @@ class Simulated final : public Device {
             const plant::Noise& noise = {}, std::uint64_t seed = 1);
 
   std::int64_t counts(double now_s) override;
+  bool has_gauge() const override { return gauge() != nullptr; }
+  double gauge_Pa(double now_s) override;
   void put(double current_mA, double now_s) override;
 
  private:
+  const plant::Rig& rig() const { return ride_.plant().rig(); }
+  const plant::Sensor* gauge() const { return rig().sensors.of(plant::Sensed::muscle_pressure); }
   void move_on(double now_s);
 
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
   ride::Ride ride_;
-  plant::Sensor sensor_;  ///< of the position
   plant::PositionReader counter_;
   run::DrawnNoise noise_;
   std::int64_t counts_ = 0;
-  double read_s_ = 0.0;
+  double gauge_Pa_ = none, counted_s_ = none, gauged_s_ = none;  ///< what was read last, and when
   ride::Drive drive_;
-  bool begun_ = false, was_put_ = false;
+  bool was_put_ = false;
 };
 
 }  // namespace mckibben::bench

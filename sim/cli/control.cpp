@@ -176,40 +176,49 @@ void add_wiring(CLI::App& verb, bench::Wiring& wiring) {
       ->type_name("A:B");
 }
 
-/// How late ticks began, in ms: of as many in a hundred, at most that.
-double late_ms(const bench::Recorded& recorded, double share) {
-  std::vector<double> late_s;
-  for (const auto& row : recorded.rows) late_s.push_back(row.late_s);
-  if (late_s.empty()) return 0.0;
-  std::sort(late_s.begin(), late_s.end());
-  return 1e3 * late_s[static_cast<std::size_t>(share * static_cast<double>(late_s.size() - 1))];
+double late_ms(const bench::Row& row, double tick_s) {
+  return 1e3 * (row.read_s - static_cast<double>(row.tick) * tick_s);
 }
+
+/// How late ticks began, in ms: of as many in a hundred, at most that.
+double late_ms(const bench::Recorded& recorded, double tick_s, double share) {
+  std::vector<double> list_ms;
+  for (const auto& row : recorded.rows) list_ms.push_back(late_ms(row, tick_s));
+  if (list_ms.empty()) return 0.0;
+  std::sort(list_ms.begin(), list_ms.end());
+  return list_ms[static_cast<std::size_t>(share * static_cast<double>(list_ms.size() - 1))];
+}
+
+constexpr std::string_view gauge_column = "muscle_pressure_bar";
 
 /// Of the commands.
 std::string column_of(const Scenario& scenario) {
   return plant::Channel{&plant::command_of(scenario.rig.command_unit())}.name();
 }
 
-std::string head_of(const Scenario& scenario) {
-  return fmt::format("time_s,{},contraction_ratio,counts,target,late_ms,read_s,sent_s\n",
-                     column_of(scenario));
+std::string head_of(const Scenario& scenario, bool gauge) {
+  return fmt::format("time_s,{},contraction_ratio,counts,{}target,late_ms,read_s,sent_s\n",
+                     column_of(scenario), gauge ? fmt::format("{},", gauge_column) : "");
 }
 
-std::string line_of(const bench::Row& row, const controllers::Knowledge& known) {
-  return fmt::format("{},{},{},{},{},{:.3f},{:.6f},{:.6f}\n",
+std::string line_of(const bench::Row& row, const controllers::Knowledge& known, bool gauge) {
+  return fmt::format("{},{},{},{},{}{},{:.3f},{:.6f},{:.6f}\n",
                      run::tidy_s(static_cast<double>(row.tick) * known.tick_s), row.current_mA,
                      static_cast<double>(row.counts) * known.contraction_per_count, row.counts,
-                     known.target_at(row.tick), 1e3 * row.late_s, row.read_s, row.sent_s);
+                     gauge ? fmt::format("{},", row.gauge_Pa / plant::Pa_per_bar) : "",
+                     known.target_at(row.tick), late_ms(row, known.tick_s), row.read_s, row.sent_s);
 }
 
 /// What goes with the rows: they are a data set of a rig with all that the scenario's has. Ticks begin late:
 /// what counts is when each reading was taken and each command went out.
 template <class Folder>
-void describe(Folder& folder, const Scenario& scenario) {
+void describe(Folder& folder, const Scenario& scenario, bool gauge) {
   Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
   dataset["columns"]["command"] = {
       {"column", column_of(scenario)}, {"unit", name_of(scenario.rig.command_unit())}, {"time", "sent_s"}};
   dataset["columns"]["contraction"] = {{"column", "counts"}, {"unit", "count"}, {"time", "read_s"}};
+  if (gauge)
+    dataset["columns"]["muscle_pressure"] = {{"column", gauge_column}, {"unit", "bar"}, {"time", "read_s"}};
   dataset["runs"] = Json::array({Json{{"id", "bench"},
                                       {"file", "bench.csv"},
                                       {"load", domain::write_number(scenario.loads_kg.front()) + " kg"}}});
@@ -218,12 +227,13 @@ void describe(Folder& folder, const Scenario& scenario) {
 }
 
 std::string text_of(const Scenario& scenario, const bench::Recorded& recorded) {
+  const auto late = [&](double share) { return late_ms(recorded, scenario.rig.tick_s, share); };
   std::string text = fmt::format("{}: {} of {} ticks of {:g} ms; ", scenario.name, recorded.rows.size(),
                                  run::plan_of(scenario, 0.0, 0).ticks, 1e3 * scenario.rig.tick_s);
   text += recorded.rows.empty()
               ? "it ended before tick 0, and nothing was recorded\n"
               : fmt::format("each began late by {:.3f} ms (median), {:.3f} ms (99 %), {:.3f} ms (at most)\n",
-                            late_ms(recorded, 0.5), late_ms(recorded, 0.99), late_ms(recorded, 1.0));
+                            late(0.5), late(0.99), late(1.0));
   text += fmt::format("missed ticks: {}; outputs that were limited: {}\n", recorded.missed_ticks,
                       recorded.limited_ticks);
   for (const auto& finding : recorded.findings)
@@ -235,13 +245,11 @@ std::string text_of(const Scenario& scenario, const bench::Recorded& recorded) {
 
 std::string document_of(const Scenario& scenario, const ControlOptions& options,
                         const bench::Recorded& recorded) {
+  const auto late = [&](double share) { return late_ms(recorded, scenario.rig.tick_s, share); };
   Json document{{"schema", "mckibben-control/1"},
                 {"device", options.device},
                 {"ticks", recorded.rows.size()},
-                {"late_ms",
-                 {{"median", late_ms(recorded, 0.5)},
-                  {"of_99_in_100", late_ms(recorded, 0.99)},
-                  {"largest", late_ms(recorded, 1.0)}}},
+                {"late_ms", {{"median", late(0.5)}, {"of_99_in_100", late(0.99)}, {"largest", late(1.0)}}},
                 {"missed_ticks", recorded.missed_ticks},
                 {"limited_ticks", recorded.limited_ticks}};
   if (!recorded.stopped.empty()) document["stopped"] = recorded.stopped;
@@ -292,25 +300,27 @@ int on_bench(const ControlOptions& options, const Scenario& scenario, const run:
   Job job(options, fmt::format("control {}, {}", options.scenario, now.time_since_epoch().count()),
           scenario.name + "-control", scenario.inputs);
   const controllers::Knowledge& known = briefing.knowledge.front();
-  output::Unfinished rows(job.where(), "bench.csv", head_of(scenario), say);
-  describe(rows, scenario);
-  plan.record = [&](const bench::Row& row) { rows.append(line_of(row, known)); };
-  plan.longest_silence_s = (options.most_missed_ticks + silent_ticks) * scenario.rig.tick_s;
-  bench::Recorded recorded;
+  std::unique_ptr<bench::Device> device;
   try {
-    const auto device = device_of(scenario, options);
-    bench::RealClock clock;
-    recorded = bench::drive(*device, std::move(controller), plan, clock);
+    device = device_of(scenario, options);
   } catch (const bench::DeviceFailure& unreachable) {
     say(unreachable.what());
     return run::interrupted() ? static_cast<int>(interrupted) : static_cast<int>(failure);
   }
+  const bool gauge = device->has_gauge();
+  output::Unfinished rows(job.where(), "bench.csv", head_of(scenario, gauge), say);
+  describe(rows, scenario, gauge);
+  plan.record = [&](const bench::Row& row) { rows.append(line_of(row, known, gauge)); };
+  plan.longest_silence_s = (options.most_missed_ticks + silent_ticks) * scenario.rig.tick_s;
+  bench::RealClock clock;
+  const bench::Recorded recorded = bench::drive(*device, std::move(controller), plan, clock);
+  device.reset();
   try {
     if (!recorded.rows.empty()) {
-      std::string csv = head_of(scenario);
-      for (const bench::Row& row : recorded.rows) csv += line_of(row, known);
+      std::string csv = head_of(scenario, gauge);
+      for (const bench::Row& row : recorded.rows) csv += line_of(row, known, gauge);
       job.write("bench.csv", csv);
-      describe(job, scenario);
+      describe(job, scenario, gauge);
     }
     const std::string document = document_of(scenario, options, recorded), text = text_of(scenario, recorded);
     job.write("control.json", document);

@@ -42,6 +42,8 @@ struct ColumnPlace {
   RowFilter where{};
 
   bool absent() const { return column.empty(); }
+  /// Its stamps are not the rows'.
+  bool has_own_clock() const { return !time.empty() || !where.absent() || late_s != 0.0; }
 
   static void fields(auto& self, auto& visit) {
     visit.required(

@@ -142,7 +142,7 @@ std::string list_of(const Table& table, const std::vector<std::size_t>& parts,
 bool has_own_clocks(const ColumnMap& map) {
   return std::ranges::any_of(domain::quantities(), [&](const domain::Quantity& quantity) {
     const ColumnPlace& place = map[quantity];
-    return !place.absent() && (!place.time.empty() || !place.where.absent() || place.late_s != 0.0);
+    return !place.absent() && place.has_own_clock();
   });
 }
 

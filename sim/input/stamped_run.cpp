@@ -45,8 +45,7 @@ bool has_own_clock(const ColumnMap& map, const plant::Rig& rig) {
   return std::ranges::any_of(domain::quantities(), [&](const Quantity& quantity) {
     const ColumnPlace& place = map[quantity];
     constexpr std::array ticked{"time", "current", "contraction", "muscle_pressure"};
-    if (!place.time.empty() || !place.where.absent() || !place.missing.empty() || place.late_s != 0.0)
-      return true;
+    if (place.has_own_clock() || !place.missing.empty()) return true;
     return !place.absent() && (place.as != Role::reading ||
                                std::find(ticked.begin(), ticked.end(), quantity.key) == ticked.end());
   });

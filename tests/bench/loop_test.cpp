@@ -134,7 +134,6 @@ TEST(Loop, VentsOnceMoreTicksInARowAreMissedThanMayBe) {
   EXPECT_EQ(late.stopped, "");
   EXPECT_EQ(late.missed_ticks, 3);
   EXPECT_EQ(late.rows.size(), 20U);
-  EXPECT_NEAR(late.rows[4].late_s, 3.5 * tick_s, 1e-9);
   EXPECT_NEAR(late.rows[4].read_s, 7.5 * tick_s, 1e-9);
   EXPECT_EQ(late.rows[4].sent_s, late.rows[4].read_s) << "its clock stands still meanwhile";
   Told many;

@@ -93,6 +93,22 @@ TEST(Control, ASimulatedBenchLeavesADataSetThatReplays) {
   EXPECT_EQ(read_text(scratch / "out/b-control.old-1/bench.csv"), recorded);
 }
 
+TEST(Control, ASimulatedBenchRecordsItsGauge) {
+  const Scratch scratch;
+  std::string text = on_bench;
+  text.replace(text.find("settling_time"), 0,
+               "sensors: [{signal: muscle_pressure, kind: gauge, resolution: 0.005 bar}], ");
+  write_text(scratch / "b.yaml", text);
+  ASSERT_EQ(mckibben("control b.yaml --most-missed 1000", scratch).status, 0);
+  EXPECT_TRUE(holds(read_text(scratch / "out/b-control/dataset.yaml"), "muscle_pressure_bar"));
+  const Said said = mckibben("replay out/b-control --json", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const Json gaps = Json::parse(said.out).at("runs").at(0).at("gaps");
+  ASSERT_EQ(gaps.size(), 2U) << said.out;
+  EXPECT_EQ(gaps.at(1).at("reading"), "muscle_pressure");
+  EXPECT_LT(gaps.at(1).at("rmse").get<double>(), 0.01) << "bar, however busy the machine is";
+}
+
 TEST(Control, AReplayKnowsWhenEachCommandWentOut) {
   const Scratch scratch;
   std::string text = on_bench;
