@@ -108,7 +108,7 @@ Json part(const Json& document, const char* key) {
 
 std::string run_name(const Json& run) {
   if (run.contains("id")) return run.at("id").get<std::string>();
-  return fmt::format("{} kg {}", domain::write_number(run.at("load_kg").get<double>()),
+  return fmt::format("{} kg {}", domain::write_kg(run.at("load_kg").get<double>()),
                      run.at("controller").get<std::string>());
 }
 

@@ -80,7 +80,7 @@ void write_tables(Job& job, const domain::Scenario& scenario, const run::Compari
     }
     attributes.emplace_back("seed", std::to_string(scenario.seed));
     const std::string title =
-        pair ? run.name : fmt::format("{} kg, {}", domain::write_number(run.load_kg), run.controller);
+        pair ? run.name : fmt::format("{} kg, {}", domain::write_kg(run.load_kg), run.controller);
     tables.write(run.name, title, output::columns_of(run.recording, scenario.rig, targets),
                  std::move(attributes));
   }
@@ -96,7 +96,7 @@ void write_tables(Job& job, const std::string& name, const domain::Dataset& data
     if (run.load_kg > 0.0) attributes.emplace_back("load_kg", run.load_kg);
     if (!dataset.own_clock) attributes.emplace_back("controller", "recorded current");
     const std::string title =
-        run.load_kg > 0.0 ? fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg)) : run.id;
+        run.load_kg > 0.0 ? fmt::format("{}, {} kg", run.id, domain::write_kg(run.load_kg)) : run.id;
     tables.write(run.id, title, output::columns_of(run.recording, dataset.rig), std::move(attributes));
   }
   tables.close();

@@ -127,8 +127,13 @@ class Readings {
   /// load or of the rig.
   void never_lifted() {
     if (data_.judged() != domain::Judged::contraction) return;
-    std::map<double, std::vector<std::size_t>> by_load;
-    std::map<double, double> most_Pa;
+    struct Stayed {
+      std::vector<std::size_t> runs;
+      double most_Pa = 0.0;
+    };
+    std::map<double, Stayed> by_load;
+    std::vector<double> loads_kg;
+    for (const domain::Run& run : data_.runs) loads_kg.push_back(run.load_kg);
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const domain::Run& run = data_.runs[i];
       const Series& pressure_Pa = expected_[i].pressure_Pa;
@@ -140,15 +145,16 @@ class Readings {
         continue;
       const double highest_Pa = *std::ranges::max_element(pressure_Pa);
       if (domain::never_lifted(run.load_kg, data_.rig, highest_Pa).empty()) continue;
-      by_load[run.load_kg].push_back(i);
-      most_Pa[run.load_kg] = std::max(most_Pa[run.load_kg], highest_Pa);
+      Stayed& stayed = by_load[run.load_kg];
+      stayed.runs.push_back(i);
+      stayed.most_Pa = std::max(stayed.most_Pa, highest_Pa);
     }
-    for (auto& [load_kg, runs] : by_load)
+    for (auto& [load_kg, stayed] : by_load)
       result_.findings.push_back(
-          {.runs = std::move(runs),
-           .message = fmt::format("the load hardly leaves its stop: load = {} kg is {}",
-                                  domain::write_number(load_kg),
-                                  domain::never_lifted(load_kg, data_.rig, most_Pa[load_kg])),
+          {.runs = std::move(stayed.runs),
+           .message =
+               fmt::format("the load hardly leaves its stop: load = {} kg is {}", domain::write_kg(load_kg),
+                           domain::never_lifted(load_kg, data_.rig, stayed.most_Pa, loads_kg)),
            .severity = Severity::doubtful});
   }
 

@@ -14,6 +14,7 @@
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/domain/rig_number.hpp>
 
 namespace mckibben::data {
 namespace {
@@ -47,7 +48,6 @@ std::optional<Weighed> weigh(const plant::Rig& rig, const plant::Braid& braid, s
     const double returned_N = rig.joint.spring().pull(braid.rest_length_m() * contraction_ratio);
     return (braid.force_N(contraction_ratio, expected.pressure_Pa[k]) - returned_N) / plant::gravity_m_per_s2;
   };
-  if (run.load_kg == 0.0) return std::nullopt;                   // no label to be wrong
   if (range(run.contraction_ratio) == 0.0) return std::nullopt;  // a dead reading weighs nothing
   Series plain_kg, compared_kg;
   for (std::size_t k = 0; k < std::min(run.contraction_ratio.size(), expected.pressure_Pa.size()); ++k) {
@@ -64,12 +64,14 @@ std::optional<Weighed> weigh(const plant::Rig& rig, const plant::Braid& braid, s
   return Weighed{index, run.load_kg, upper_median(std::move(both ? compared_kg : plain_kg))};
 }
 
-std::vector<Weighed> weigh(const domain::Dataset& data, const std::vector<Expected>& expected) {
+/// Runs with a load, or those without.
+std::vector<Weighed> weigh(const domain::Dataset& data, const std::vector<Expected>& expected, bool loaded) {
   const plant::Braid braid(data.rig.muscle);
   std::vector<Weighed> list;
   if (data.rig.has_angle()) return list;  // what hangs on a lever pulls by its angle
   for (std::size_t i = 0; i < data.runs.size(); ++i)
-    if (const auto one = weigh(data.rig, braid, i, data.runs[i], expected[i])) list.push_back(*one);
+    if ((data.runs[i].load_kg > 0.0) == loaded)
+      if (const auto one = weigh(data.rig, braid, i, data.runs[i], expected[i])) list.push_back(*one);
   return list;
 }
 
@@ -97,7 +99,7 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
       {1e3, of_loads.near_grams, of_loads.near_grams, "kg that are written in g: write kg"},
       {1.0 / plant::gravity_m_per_s2, of_loads.near_newtons, of_loads.near_newtons,
        "N, not kg: write the mass, N / 9.81"},
-      {pound_kg, of_loads.near_pounds, of_loads.sure_pounds, "pounds, not kg: write lb"},
+      {domain::pound_kg, of_loads.near_pounds, of_loads.sure_pounds, "pounds, not kg: write lb"},
       {10.0, of_loads.near_grams, of_loads.sure_tenth,
        "a tenth of what hung (a digit missing, a point misplaced)"}};
   const double ratio = common_ratio(list);
@@ -109,7 +111,7 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
         "load", runs_of(list),
         fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
                     "factor; these look like {}, here load: {:.6g} kg",
-                    domain::write_number(list.front().label_kg), list.front().seems_kg, unit.says,
+                    domain::write_kg(list.front().label_kg), list.front().seems_kg, unit.says,
                     unit.ratio * list.front().label_kg),
         off < std::log(unit.sure) ? Severity::refused : Severity::doubtful};
   }
@@ -146,14 +148,14 @@ std::optional<Finding> misplaced_points(const domain::Dataset& data, const std::
                 "{} ({} kg) moves like {:.3g} kg, and the loads of all other runs seem {} than "
                 "written, too: is the zero of contraction what it reads at rest length, and is it this "
                 "muscle?",
-                data.runs[one.run].id, domain::write_number(one.label_kg), one.seems_kg,
+                data.runs[one.run].id, domain::write_kg(one.label_kg), one.seems_kg,
                 one.seems_kg > one.label_kg ? "heavier" : "lighter"),
             Severity::doubtful};
       found.runs.push_back(one.run);
       found.message +=
           fmt::format("{}{} ({} kg) moves like {:.3g} kg: write load: {:.6g} kg",
                       found.message.empty() ? "is a point misplaced? " : "; ", data.runs[one.run].id,
-                      domain::write_number(one.label_kg), one.seems_kg, factor * one.label_kg);
+                      domain::write_kg(one.label_kg), one.seems_kg, factor * one.label_kg);
     }
   if (found.runs.empty()) return std::nullopt;
   return found;
@@ -209,6 +211,58 @@ bool same_labels(const std::vector<Weighed>& a, const std::vector<Weighed>& b) {
   return std::ranges::equal(a, b, {}, &Weighed::label_kg, &Weighed::label_kg);
 }
 
+/// What runs seem to weigh as a line over their labels, by their relative errors: an effect or another muscle
+/// adds a factor and an offset. A factor alone where all labels are the same.
+struct Line {
+  double factor = 1.0, offset_kg = 0.0;
+
+  double load_kg(double seems_kg) const { return (seems_kg - offset_kg) / factor; }
+  double off(const Weighed& one) const { return log_ratio(load_kg(one.seems_kg), one.label_kg); }
+
+  /// Infinite where one is no load.
+  static double log_ratio(double kg, double label_kg) {
+    return kg > 0.0 ? std::log(kg / label_kg) : std::numeric_limits<double>::infinity();
+  }
+};
+
+Line line_through(const std::vector<Weighed>& list) {
+  constexpr double same = 1e-6;
+  double sum = 0.0, of_label = 0.0, of_seems = 0.0, of_squares = 0.0, of_products = 0.0;
+  for (const Weighed& one : list) {
+    const double weight = 1.0 / (one.label_kg * one.label_kg);
+    sum += weight;
+    of_label += weight * one.label_kg;
+    of_seems += weight * one.seems_kg;
+    of_squares += weight * one.label_kg * one.label_kg;
+    of_products += weight * one.label_kg * one.seems_kg;
+  }
+  const double spread = sum * of_squares - of_label * of_label;
+  if (spread < same * sum * of_squares) return {of_seems / of_label, 0.0};
+  const double factor = (sum * of_products - of_label * of_seems) / spread;
+  return {factor, (of_seems - factor * of_label) / sum};
+}
+
+/// Whether a label contradicts those of three others or more, which agree: both by the factor that they have
+/// in common, and by the line through them.
+bool contradicts(const Weighed& one, const std::vector<Weighed>& others, double scale) {
+  if (others.size() < of_loads.least_others) return false;
+  const Line line = line_through(others);
+  if (!(line.factor > 0.0)) return false;
+  Series labels_kg;
+  double left = 0.0;
+  for (const Weighed& other : others) {
+    labels_kg.push_back(other.label_kg);
+    left = std::max(left, std::abs(line.off(other)));
+  }
+  const double least_kg = of_loads.contradicts_kg * upper_median(std::move(labels_kg));
+  const double least = std::max(std::log(of_loads.contradicts), of_loads.apart_of_line * left);
+  const double a_kg = one.seems_kg / scale, b_kg = line.load_kg(one.seems_kg);
+  const auto off = [&](double kg, double way) {
+    return way * (kg - one.label_kg) > least_kg && way * Line::log_ratio(kg, one.label_kg) > least;
+  };
+  return (off(a_kg, 1.0) && off(b_kg, 1.0)) || (off(a_kg, -1.0) && off(b_kg, -1.0));
+}
+
 /// A label that alone contradicts the others, which agree.
 struct Alone {
   Weighed run;
@@ -227,8 +281,8 @@ std::optional<Alone> alone(const std::vector<Weighed>& list, bool exchangeable) 
     if (list[i].seems_kg <= 0.0 || !(left < std::log(of_loads.others_agree)) ||
         !same_labels(in_order(others), others))
       continue;
-    if (!exchangeable && (others.size() < 2 || off < std::log(of_loads.alone) || off < of_loads.apart * left))
-      continue;
+    const bool far = others.size() > 1 && off >= std::log(of_loads.alone) && off >= of_loads.apart * left;
+    if (!exchangeable && !far && !contradicts(list[i], others, fit.scale)) continue;
     if (!best || fit.misfit() < best->others.misfit()) best = Alone{list[i], fit};
   }
   return best;
@@ -241,7 +295,7 @@ Finding wrong_label(const domain::Dataset& data, const Alone& found) {
           .message = fmt::format("{} ({} kg) moves like {:.3g} kg, and the other runs agree with their "
                                  "labels: is this label wrong? Then load: {:.3g} kg; or was its encoder set "
                                  "to zero elsewhere?",
-                                 data.runs[run].id, domain::write_number(label_kg), seems_kg,
+                                 data.runs[run].id, domain::write_kg(label_kg), seems_kg,
                                  seems_kg / found.others.scale),
           .severity = Severity::doubtful};
 }
@@ -276,9 +330,9 @@ std::optional<Finding> wrong_labels(const domain::Dataset& data, const std::vect
     if (all_agree) found.exchanged.push_back({list[i].run, other_kg});
     const std::string& id = data.runs[list[i].run].id;
     const char* const comma = written.empty() ? "" : ", ";
-    written += fmt::format("{}load: {} kg for {}", comma, domain::write_number(other_kg), id);
-    seems += fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, domain::write_number(label_kg),
-                         list[i].seems_kg);
+    written += fmt::format("{}load: {} kg for {}", comma, domain::write_kg(other_kg), id);
+    seems +=
+        fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, domain::write_kg(label_kg), list[i].seems_kg);
   }
   found.message =
       fmt::format("at equal pressure a heavier load contracts less, but {}: {}", seems,
@@ -287,11 +341,30 @@ std::optional<Finding> wrong_labels(const domain::Dataset& data, const std::vect
   return found;
 }
 
+/// Runs without a load that move as if one hung there.
+std::optional<Finding> unloaded(const domain::Dataset& data, const std::vector<Weighed>& list,
+                                const std::vector<Weighed>& others) {
+  const Line line = others.empty() ? Line{} : line_through(others);
+  const double least_kg = of_loads.visible * domain::usual_load_kg(data.rig);
+  Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
+  std::string seems;
+  for (const Weighed& one : list) {
+    const double kg = line.load_kg(one.seems_kg);
+    if (!(line.factor > 0.0) || !(kg > least_kg)) continue;
+    found.runs.push_back(one.run);
+    seems += fmt::format("{}{} moves like {:.3g} kg", seems.empty() ? "" : ", ", data.runs[one.run].id, kg);
+  }
+  if (found.runs.empty()) return std::nullopt;
+  found.message = fmt::format("load = 0 kg, but {}: write the load that it carried", seems);
+  return found;
+}
+
 }  // namespace
 
 void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
                  std::vector<Finding>& findings) {
-  const std::vector<Weighed> list = weigh(data, expected);
+  const std::vector<Weighed> list = weigh(data, expected, true);
+  if (auto found = unloaded(data, weigh(data, expected, false), list)) findings.push_back(std::move(*found));
   if (list.empty()) return;
   auto found = other_unit(list);
   if (!found) found = misplaced_points(data, list);

@@ -18,6 +18,11 @@ std::string write_number(double value) {
   return {digits.data(), end};
 }
 
+std::string write_kg(double kg) {
+  constexpr int written = 9;
+  return write_number(significant(kg, written));
+}
+
 double significant(double value, int digits) {
   std::array<char, 24> text{};
   const auto written =

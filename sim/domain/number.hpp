@@ -8,6 +8,11 @@ namespace mckibben::domain {
 /// Shortest digits that read back exactly.
 std::string write_number(double value);
 
+inline constexpr double pound_kg = 0.45359237;
+
+/// A mass as it was written, less what a conversion of its unit rounded.
+std::string write_kg(double kg);
+
 /// The number nearest to it that has so many digits that count, at most 9: 170 for 168.4 and two.
 double significant(double value, int digits);
 

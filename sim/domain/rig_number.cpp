@@ -3,10 +3,12 @@
 #include <cmath>
 #include <concepts>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 #include <utility>
 
 #include <plant/geometry.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/domain/renamed.hpp>
 #include <sim/domain/rig_number.hpp>
 
@@ -173,28 +175,62 @@ double usual_load_kg(const plant::Rig& rig) {
   return std::round(kg / digit) * digit;
 }
 
-std::string too_heavy(double load_kg, const plant::Rig& rig) {
-  const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
-  if (rig.pulled_kg(load_kg) <= most_kg) return "";
-  std::ostringstream text;
-  text << "the taut threads of this muscle bear " << std::setprecision(3) << most_kg
-       << " kg before they lie along it; a stiffer stop (muscle.stop_stiffness, " << std::setprecision(6)
-       << rig.muscle.stop_stiffness_N_per_m << " N/m) or a wider braid_angle bears more";
-  return text.str();
-}
-
 double most_pressure_Pa(const plant::Rig& rig) {
   return rig.valve.seals() ? rig.valve.fill_pressure_Pa : rig.valve.span_pressure_Pa;
 }
 
-std::string never_lifted(double load_kg, const plant::Rig& rig, double pressure_Pa) {
+namespace {
+
+/// Against its friction.
+double most_lifted_kg(const plant::Rig& rig, double pressure_Pa) {
   constexpr double against_friction = 0.9;
-  const double most_kg = against_friction * plant::Braid(rig.muscle).force_N(hardly_lifted, pressure_Pa) /
-                         plant::gravity_m_per_s2;
+  return against_friction * plant::Braid(rig.muscle).force_N(hardly_lifted, pressure_Pa) /
+         plant::gravity_m_per_s2;
+}
+
+/// Whether a number that is meant by another fits what hangs in other runs, where there are some.
+bool is_like(double meant_kg, double load_kg, std::span<const double> others_kg, const plant::Rig& rig) {
+  constexpr double far = 2.0;
+  double lowest_kg = std::numeric_limits<double>::infinity(), highest_kg = 0.0;
+  for (const double other_kg : others_kg) {
+    if (other_kg == 0.0 || other_kg == load_kg || !too_heavy(other_kg, rig).empty()) continue;
+    lowest_kg = std::min(lowest_kg, other_kg);
+    highest_kg = std::max(highest_kg, other_kg);
+  }
+  return highest_kg == 0.0 || (meant_kg > lowest_kg / far && meant_kg < highest_kg * far);
+}
+
+std::string is_it_right(double load_kg, const plant::Rig& rig, std::span<const double> others_kg) {
+  const auto fits = [&](double meant_kg) {
+    return rig.pulled_kg(meant_kg) < most_lifted_kg(rig, most_pressure_Pa(rig)) &&
+           is_like(meant_kg, load_kg, others_kg, rig);
+  };
+  const std::string asked = "is the number right";
+  if (fits(0.1 * load_kg)) return asked + ", or is it a tenth, " + write_kg(0.1 * load_kg) + " kg?";
+  if (fits(pound_kg * load_kg)) return asked + ", or is it in lb?";
+  if (fits(1e-3 * load_kg)) return asked + ", or is it in g?";
+  return asked + "?";
+}
+
+}  // namespace
+
+std::string too_heavy(double load_kg, const plant::Rig& rig, std::span<const double> others_kg) {
+  const double most_kg = plant::Braid(rig.muscle).largest_load_kg();
+  if (rig.pulled_kg(load_kg) <= most_kg) return "";
+  std::ostringstream text;
+  text << "the taut threads of this muscle bear " << std::setprecision(3) << most_kg
+       << " kg before they lie along it (muscle.stop_stiffness, braid_angle): "
+       << is_it_right(load_kg, rig, others_kg);
+  return text.str();
+}
+
+std::string never_lifted(double load_kg, const plant::Rig& rig, double pressure_Pa,
+                         std::span<const double> others_kg) {
+  const double most_kg = most_lifted_kg(rig, pressure_Pa);
   if (rig.pulled_kg(load_kg) <= most_kg) return "";
   std::ostringstream text;
   text << std::setprecision(3) << "more than the muscle lifts, about " << most_kg << " kg at "
-       << pressure_Pa / plant::Pa_per_bar << " bar: is the number right?";
+       << pressure_Pa / plant::Pa_per_bar << " bar: " << is_it_right(load_kg, rig, others_kg);
   return text.str();
 }
 

@@ -1,6 +1,7 @@
 // Numbers of a rig by the path of their keys in a rig file, `muscle.rest_radius`, and the rules between them.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,13 +32,15 @@ std::string broken_rule(const plant::Rig& rig);
 /// A load that the muscle lifts about halfway: by its force at full pressure, in two digits.
 double usual_load_kg(const plant::Rig& rig);
 
-/// Why the rig's taut threads cannot bear a load; empty if they can.
-std::string too_heavy(double load_kg, const plant::Rig& rig);
+/// Why the rig's taut threads cannot bear a load, and whether the number is right; empty if they can. Loads
+/// of other runs show what may be meant.
+std::string too_heavy(double load_kg, const plant::Rig& rig, std::span<const double> others_kg = {});
 
 /// The highest pressure that the rig's valve gives.
 double most_pressure_Pa(const plant::Rig& rig);
 inline constexpr double hardly_lifted = 0.02;  ///< contraction ratio
 /// That the muscle cannot lift a load so far against its friction at a pressure; empty if it can.
-std::string never_lifted(double load_kg, const plant::Rig& rig, double pressure_Pa);
+std::string never_lifted(double load_kg, const plant::Rig& rig, double pressure_Pa,
+                         std::span<const double> others_kg = {});
 
 }  // namespace mckibben::domain

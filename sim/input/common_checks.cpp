@@ -101,9 +101,10 @@ void check_loads(const YamlFile& file, const std::vector<double>& loads_kg, cons
     const Node& node = nodes.children[i];
     if (!rig.can_hang(loads_kg[i]))
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, no_mass(rig)));
-    else if (const auto why = domain::too_heavy(loads_kg[i], rig); !why.empty())
+    else if (const auto why = domain::too_heavy(loads_kg[i], rig, loads_kg); !why.empty())
       problems.error(file.source, node.place, fmt::format("loads: {}: {}", node.text, why));
-    else if (const auto never = domain::never_lifted(loads_kg[i], rig, domain::most_pressure_Pa(rig));
+    else if (const auto never =
+                 domain::never_lifted(loads_kg[i], rig, domain::most_pressure_Pa(rig), loads_kg);
              !rig.has_angle() && !never.empty())
       problems.warning(file.source, node.place, fmt::format("loads: {} is {}", node.text, never));
     else if (loads_kg[i] > 0.0 && loads_kg[i] < hardly_anything * domain::usual_load_kg(rig))

@@ -29,6 +29,8 @@ void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems
   const Node& list = *file.root.find("runs");
   if (dataset.runs.empty()) problems.error(file.source, list.place, "runs: at least one run is needed");
   std::unordered_map<std::string, std::size_t> first;
+  std::vector<double> loads_kg;
+  for (const Run& run : dataset.runs) loads_kg.push_back(run.load_kg);
   for (std::size_t i = 0; i < dataset.runs.size(); ++i) {
     const std::string& id = dataset.runs[i].id;
     const Place place = list.children[i].find("id")->place;
@@ -40,7 +42,7 @@ void check_runs(const YamlFile& file, const Dataset& dataset, Problems& problems
                      fmt::format("id = {} is already that of the run in line {}", id, earlier->second));
     const Node* load = list.children[i].find("load");
     if (load == nullptr) continue;
-    if (const auto why = domain::too_heavy(dataset.runs[i].load_kg, dataset.rig); !why.empty())
+    if (const auto why = domain::too_heavy(loads_kg[i], dataset.rig, loads_kg); !why.empty())
       problems.error(file.source, load->place, fmt::format("load = {}: {}", load->text, why));
   }
 }

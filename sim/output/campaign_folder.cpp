@@ -218,7 +218,7 @@ std::string CampaignFolder::package(const char* what, std::vector<formats::Colum
     if (!run.failure.empty()) continue;
     std::string holds = campaign_.currents[run.job.current].name;
     if (campaign_.rig.pair() == nullptr)
-      holds = fmt::format("{} kg, {}", domain::write_number(run.job.load_kg), holds);
+      holds = fmt::format("{} kg, {}", domain::write_kg(run.job.load_kg), holds);
     package.runs.push_back({run.job.id, std::move(holds)});
   }
   return datapackage(package);

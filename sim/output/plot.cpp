@@ -94,7 +94,7 @@ Legend make_legend(const domain::Scenario& scenario, bool with_target) {
 /// Target and load that a row of runs has in common.
 std::string title_of(const run::Comparison& comparison, const run::Task& task) {
   const std::string& target = comparison.targets[task.target].name;
-  return fmt::format("{}{}{} kg", target, target.empty() ? "" : ", ", domain::write_number(task.load_kg));
+  return fmt::format("{}{}{} kg", target, target.empty() ? "" : ", ", domain::write_kg(task.load_kg));
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ std::string robustness(const run::Comparison& comparison) {
             2);
   for (const auto& row : comparison.robustness) {
     const auto count = [](std::size_t number) { return number == 0 ? "-" : std::to_string(number); };
-    grid.add({domain::write_number(row.load_kg), row.controller, row.rmse ? ratio(row.rmse->low) : "-",
+    grid.add({domain::write_kg(row.load_kg), row.controller, row.rmse ? ratio(row.rmse->low) : "-",
               row.rmse ? ratio(row.rmse->median) : "-", row.rmse ? ratio(row.rmse->high) : "-",
               count(row.failures), count(row.limit_cycles), count(row.saturated), count(row.over_contracted),
               count(row.no_result)});
@@ -148,7 +148,7 @@ std::string lines_of_one(const domain::Scenario& scenario, const run::Comparison
   Grid grid(heads, 2);
   for (const auto& run : comparison.runs) {
     const auto& m = run.metrics;
-    const std::vector<std::string> head{domain::write_number(run.load_kg),
+    const std::vector<std::string> head{domain::write_kg(run.load_kg),
                                         run.controller + extrapolation_mark(run)};
     if (!run.failure.empty()) {
       grid.add(head, "no result");
@@ -220,7 +220,7 @@ std::string lines_of_joint(const run::Comparison& comparison) {
     if (!run.followed()) continue;
     const auto& m = run.metrics;
     const std::vector<std::string> head{comparison.targets[run.target].name,
-                                        domain::write_number(run.load_kg), run.controller};
+                                        domain::write_kg(run.load_kg), run.controller};
     if (!run.failure.empty())
       grid.add(head, "no result");
     else

@@ -23,7 +23,7 @@ namespace {
 using domain::Scenario;
 
 std::string id_of(const std::string& controller, double load_kg) {
-  return fmt::format("{} at {} kg", controller, domain::write_number(load_kg));
+  return fmt::format("{} at {} kg", controller, domain::write_kg(load_kg));
 }
 
 constexpr auto findings_of = [](auto&& visit, auto& findings) {

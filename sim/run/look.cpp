@@ -125,7 +125,7 @@ void add_far_off(const domain::Dataset& data, const std::vector<ReplayedRun>& re
   constexpr double most = 1.0 / 3.0;  // of what was read in all runs
   struct Worst {
     Gap gap{};
-    std::vector<std::size_t> runs{};
+    std::vector<std::pair<std::size_t, double>> runs{};  ///< and the rmse of each
   };
   std::map<std::string, Worst> worst;
   for (std::size_t i = 0; i < replayed.size(); ++i)
@@ -135,23 +135,34 @@ void add_far_off(const domain::Dataset& data, const std::vector<ReplayedRun>& re
       one.rmse = std::max(one.rmse, gap.rmse);
       one.low = std::min(one.low, gap.low);
       one.high = std::max(one.high, gap.high);
-      runs.push_back(i);
+      runs.emplace_back(i, gap.rmse);
     }
   for (auto& [reading, found] : worst) {
-    const double share = found.gap.rmse / (found.gap.high - found.gap.low);
+    const double read = found.gap.high - found.gap.low, share = found.gap.rmse / read;
     const auto explains = [&](const data::Finding& one) {
       return one.quantity == reading || one.severity == data::Severity::refused;
     };
     if (!(share > most) || !std::isfinite(share) || std::ranges::any_of(findings, explains)) continue;
-    const auto columns = data::with_our_names(
-        domain::merged(data.columns, data.runs[found.runs.front()].columns), data.rig.command_unit());
+    std::vector<std::size_t> far;  // but for runs whose loads are found to be wrong
+    double worst_of_far = 0.0;
+    for (const auto& [run, rmse] : found.runs) {
+      const auto load = [run = run](const data::Finding& one) {
+        return one.quantity == "load" && std::ranges::find(one.runs, run) != one.runs.end();
+      };
+      if (!(rmse > most * read) || std::ranges::any_of(findings, load)) continue;
+      far.push_back(run);
+      worst_of_far = std::max(worst_of_far, rmse);
+    }
+    if (far.empty()) continue;
+    const auto columns = data::with_our_names(domain::merged(data.columns, data.runs[far.front()].columns),
+                                              data.rig.command_unit());
     const bool by_length = reading == "contraction" && data::divided_by_length(columns[reading]);
     findings.push_back({.quantity = reading,
-                        .runs = std::move(found.runs),
+                        .runs = std::move(far),
                         .message = fmt::format("{}: rmse is up to {:.0f} % of what was read: before "
                                                "diagnose, look at the column's zero, factor "
                                                "and unit, at the loads and at the rig{}",
-                                               reading, 100.0 * share,
+                                               reading, 100.0 * worst_of_far / read,
                                                by_length ? fmt::format(", also at its rest_length, {:.4g} mm",
                                                                        1e3 * data.rig.muscle.rest_length_m)
                                                          : ""),

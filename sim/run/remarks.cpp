@@ -99,7 +99,7 @@ std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std
   if (highest > 0.0)
     words += (words.empty() ? "" : " and ") + place_and_share(false, *most->limits, rig, highest / runs);
   if (runs > 1.0)
-    words += fmt::format(" (with {} kg for {:.0f} %)", domain::write_number(most->load_kg),
+    words += fmt::format(" (with {} kg for {:.0f} %)", domain::write_kg(most->load_kg),
                          100.0 * share_at_limit(*most));
   return "stood " + words;
 }
@@ -164,7 +164,7 @@ std::string load_warning(const TrackedRun& run, const controllers::Settings& set
   const double believed_kg =
       terms->assumed_load_kg.value_or(controllers::value_of(run.recording.findings, "believed_load"));
   if (std::abs(believed_kg - run.load_kg) <= controllers::weighing_tolerance * run.load_kg) return "";
-  const std::string load = domain::write_number(run.load_kg);
+  const std::string load = domain::write_kg(run.load_kg);
   return fmt::format("it takes its load of {} kg for {:.3g} kg: write assumed_load: {} kg{}", load,
                      believed_kg, load,
                      terms->assumed_load_kg ? "" : ", or a weighing or calibration that fits this rig");
