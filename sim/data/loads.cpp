@@ -248,6 +248,9 @@ bool contradicts(const Weighed& one, const std::vector<Weighed>& others, double 
   if (others.size() < of_loads.least_others) return false;
   const Line line = line_through(others);
   if (!(line.factor > 0.0)) return false;
+  // Below the lightest one: near the end of the stroke a small error of the contraction looks like many kg.
+  const double lightest_kg = std::ranges::min(others, {}, &Weighed::label_kg).label_kg;
+  if (std::min(one.label_kg, one.seems_kg / scale) < lightest_kg) return false;
   Series labels_kg;
   double left = 0.0;
   for (const Weighed& other : others) {
@@ -281,7 +284,9 @@ std::optional<Alone> alone(const std::vector<Weighed>& list, bool exchangeable) 
     if (list[i].seems_kg <= 0.0 || !(left < std::log(of_loads.others_agree)) ||
         !same_labels(in_order(others), others))
       continue;
-    const bool far = others.size() > 1 && off >= std::log(of_loads.alone) && off >= of_loads.apart * left;
+    const Line line = others.size() < of_loads.least_others ? Line{fit.scale} : line_through(others);
+    const bool far = others.size() > 1 && off >= of_loads.apart * left &&
+                     std::min(off, std::abs(line.off(list[i]))) >= std::log(of_loads.alone);
     if (!exchangeable && !far && !contradicts(list[i], others, fit.scale)) continue;
     if (!best || fit.misfit() < best->others.misfit()) best = Alone{list[i], fit};
   }

@@ -62,8 +62,8 @@ struct LoadThresholds {
   double others_agree = 1.2;         ///< factor between the other runs, where one label alone is wrong;
   double alone = 1.35, apart = 4.0;  ///< what it is off by, if in order: a factor, and so many of theirs
   std::size_t least_others = 3;      ///< runs: a line through them shows what one label more contradicts,
-  double contradicts = 1.12, contradicts_kg = 0.1;  ///< by a factor, by a share of the middle load,
-  double apart_of_line = 3.0;                       ///< and by so many of what is left of the line
+  double contradicts = 1.12, contradicts_kg = 0.15;  ///< by a factor, by a share of the middle load,
+  double apart_of_line = 3.0;                        ///< and by so many of what is left of the line
   double visible = 0.2;        ///< of a usual load: effects without a load look like less
   double near_grams = 2.0;     ///< factors, round kg written in g, N and pounds; a muscle of half or twice
   double near_newtons = 1.25;  ///< the force comes near to pounds, none to the others

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/even_rows.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
@@ -115,24 +116,25 @@ domain::Dataset ticked(domain::Dataset data, const std::function<void(const std:
   for (const std::string& warning : checked(data)) say("warning: " + warning);
   if (!stamped) return data;
   data = data::with_rows(std::move(data));
-  data.rig.tick_s = data.row_s();
-  constexpr double uneven = 0.1;  // of a row
-  data::Finding wide;
-  for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    const std::vector<double>& time_s = data.runs[i].time_s;
-    const auto gap = std::ranges::adjacent_find(time_s, [&](double from_s, double to_s) {
-      return std::abs(to_s - from_s - data.row_s()) > uneven * data.row_s();
-    });
-    if (gap == time_s.end()) continue;
-    wide.runs.push_back(i);
-    if (wide.message.empty())
-      wide.message = fmt::format(
-          "calibrate cannot take it: stamps are {:.6g} ms apart at {:.6g} s, others "
-          "{:.6g} ms, and too few to make even rows of them",
-          1e3 * (gap[1] - gap[0]), gap[1], 1e3 * data.row_s());
+  const data::Spacing spacing = data::spacing_of(data);
+  const double row_s = spacing.is_even() ? data.row_s() : spacing.row_s;
+  if (!spacing.gaps.empty())
+    throw data::UnfitData(
+        data,
+        {{.runs = spacing.gaps,
+          .message = fmt::format("calibrate cannot take it: stamps are {:.6g} ms apart at {:.6g} s, others "
+                                 "{:.6g} ms: leave that part out (from, to of the run)",
+                                 1e3 * spacing.gap_s, spacing.gap_at_s, 1e3 * spacing.row_s)}});
+  if (spacing.is_even()) {
+    say(fmt::format("rows {:.6g} ms apart are made of the stamps", 1e3 * row_s));
+  } else {
+    data::make_even(data, row_s);
+    say(
+        fmt::format("stamps are {:.4g} to {:.4g} ms apart: rows {:.6g} ms apart are interpolated from them, "
+                    "commands averaged",
+                    1e3 * spacing.narrowest_s, 1e3 * spacing.widest_s, 1e3 * row_s));
   }
-  if (!wide.runs.empty()) throw data::UnfitData(data, std::vector{wide});
-  say(fmt::format("rows {:.6g} ms apart are made of the stamps", 1e3 * data.row_s()));
+  data.rig.tick_s = row_s;
   return data;
 }
 

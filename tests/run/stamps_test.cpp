@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/even_rows.hpp>
+#include <sim/data/judged.hpp>
 #include <sim/data/stamps.hpp>
 
 namespace mckibben::data {
@@ -132,6 +134,54 @@ TEST(Stamps, WhatWasDoneIsTold) {
   for (std::size_t k = 0; k < clean.size(); ++k)
     squares += std::pow(mended.given("muscle_pressure")[k] - clean[k], 2);
   EXPECT_LT(std::sqrt(squares / static_cast<double>(clean.size())), 0.1 * 3e3 / std::sqrt(2.0));
+}
+
+/// Ticks of 12 ms that begin up to 6 ms late, a command sent at each 0.2 ms after its reading.
+domain::Dataset of_a_busy_bench(double pause_s = 0.0) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> late_s(0.0, 6e-3);
+  domain::Dataset data;
+  data.own_clock = true;
+  domain::Measurement measured;
+  measured.own_clocks = true;
+  std::vector<double> commands, readings;
+  for (int k = 0; k < 200; ++k) {
+    const double at_s = 0.012 * k + late_s(random) + (k > 100 ? pause_s : 0.0);
+    for (const bool sent : {false, true}) {
+      measured.time_s.push_back(at_s + (sent ? 2e-4 : 0.0));
+      readings.push_back(sent ? std::nan("") : 0.1 + 0.01 * at_s);
+      commands.push_back(k == 0 || sent ? 4.0 + 0.01 * k : commands.back());
+    }
+  }
+  measured.give("command") = commands;
+  measured.take("contraction") = readings;
+  data.runs.emplace_back().measured = measured;
+  return with_rows(std::move(data));
+}
+
+TEST(EvenRows, AreMadeOfTicksThatBeganLate) {
+  domain::Dataset data = of_a_busy_bench();
+  const Spacing spacing = spacing_of(data);
+  EXPECT_FALSE(spacing.is_even());
+  EXPECT_TRUE(spacing.gaps.empty());
+  EXPECT_EQ(spacing.row_s, data.rig.tick_s);
+  make_even(data, spacing.row_s);
+  EXPECT_TRUE(spacing_of(data).is_even());
+  const domain::Run& run = data.runs.front();
+  ASSERT_GT(run.contraction_ratio.size(), 195U);
+  ASSERT_EQ(run.current_mA.size(), run.contraction_ratio.size());
+  const double begin_s = run.measured->time_s.front();
+  for (std::size_t k = 0; k < run.time_s.size(); ++k) {
+    EXPECT_NEAR(run.contraction_ratio[k], 0.1 + 0.01 * (begin_s + run.time_s[k]), 1e-9);
+    EXPECT_NEAR(run.current_mA[k], 4.0 + 0.01 * static_cast<double>(k), 0.012) << "a tick at most";
+  }
+}
+
+TEST(EvenRows, AreNotMadeOverAGap) {
+  const Spacing spacing = spacing_of(of_a_busy_bench(0.05));
+  EXPECT_EQ(spacing.gaps, std::vector<std::size_t>{0});
+  EXPECT_NEAR(spacing.gap_s, 0.062, 0.006);
+  EXPECT_NEAR(spacing.gap_at_s, 101 * 0.012 + 0.05, 0.006);
 }
 
 }  // namespace
