@@ -13,6 +13,7 @@
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
 #include <sim/diagnose/thresholds.hpp>
+#include <sim/domain/fill_in.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/identify/bench.hpp>
 
@@ -78,6 +79,16 @@ class FaultReport {
  private:
   const domain::Run& run(std::size_t place) const { return data_.runs[rows_.runs[place]]; }
 
+  /// Of what is judged and what was read with it, changed.
+  std::string lines_of_readings(const auto& change) const {
+    std::vector<std::string> keys{judged_key(run(0))};
+    for (const auto& kind : rows_.kinds)
+      if (kind) keys.push_back(data::told(*kind, data_.rig.pair() != nullptr).first);
+    std::vector<std::string> lines;
+    for (const std::string& key : keys) lines.push_back(domain::line_of(key, change(place_of(run(0), key))));
+    return fmt::format("{}", fmt::join(lines, ", "));
+  }
+
   void common(const Entry& entry, const FittedNumber& size) {
     BenchFault fault{.name = entry.name, .runs = {}, .size = size, .write = {}, .words = {}};
     const double deviation = (size.high - size.low) / (2.0 * of_95);
@@ -85,19 +96,19 @@ class FaultReport {
     if (entry.bench->of == &Bench::ahead_s) {
       const std::string ms = number_of(1e3 * size.value, 1e3 * deviation);
       fault.words = fmt::format("the clock of the readings is {} ms ahead of that of the input", ms);
-      std::vector<std::string> keys{judged_key(run(0))};
-      for (const auto& kind : rows_.kinds)
-        if (kind) keys.push_back(data::told(*kind, data_.rig.pair() != nullptr).first);
-      std::vector<std::string> lines;
-      for (const std::string& key : keys)
-        lines.push_back(domain::line_of(key, later(place_of(run(0), key), -size.value, deviation)));
-      fault.write = fmt::format("columns: {{{}}}", fmt::join(lines, ", "));
+      fault.write = fmt::format("columns: {{{}}}", lines_of_readings([&](domain::ColumnPlace place) {
+                                  return later(std::move(place), -size.value, deviation);
+                                }));
     } else if (entry.bench->of == &Bench::clock) {
       fault.words = fmt::format("the clock of the readings runs {} % {}",
                                 number_of(100.0 * std::abs(size.value), 100.0 * deviation),
                                 more_or_less(size.value, "slow", "fast"));
-      fault.write =
-          fmt::format("multiply the stamps of the readings by {}", number_of(1.0 + size.value, deviation));
+      fault.write = fmt::format("columns: {{{}}}, {} a column of the stamps times {}",
+                                lines_of_readings([](domain::ColumnPlace place) {
+                                  place.time = domain::fill_in;
+                                  return place;
+                                }),
+                                domain::fill_in, number_of(1.0 + size.value, deviation));
     } else {
       const bool factor = entry.bench->of == &Bench::load_factor;
       fault.words = fmt::format(

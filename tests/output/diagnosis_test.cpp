@@ -94,7 +94,8 @@ TEST(DiagnosisJson, HoldsFaultsOfTheBenchWithTheLineThatMendsThem) {
                  {.name = "reading_clock",
                   .runs = {"r01", "r02", "r03", "r04", "r05", "r06"},
                   .size = {"", "1", 0.01, 0.009, 0.011},
-                  .write = "multiply the stamps of the readings by 1.01",
+                  .write = "columns: {contraction: {column: x, unit: mm, time: FILL_IN}}, FILL_IN a column "
+                           "of the stamps times 1.01",
                   .words = "the clock of the readings runs 1 % slow"}};
   const Json load = Json::parse(json_of(measured(), found)).at("bench").at(0);
   EXPECT_EQ(load.at("name"), "loads_differ");

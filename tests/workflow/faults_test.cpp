@@ -65,6 +65,22 @@ TEST(NightlyFaults, AllRunsThatAreEarlyAreFoundBesideAnEffectThatIsMissing) {
   EXPECT_EQ(found.effects[0].name, "speed_dependent_friction");
 }
 
+TEST(Faults, AClockThatRunsSlowIsSaidWithTheLineToWrite) {
+  auto data = small(plant::Rig{});
+  for (domain::Run& run : data.runs) {
+    const auto read = run.contraction_ratio;
+    for (std::size_t k = 0; k < read.size(); ++k)
+      run.contraction_ratio[k] =
+          read[std::min(static_cast<std::size_t>(1.02 * static_cast<double>(k)), read.size() - 1)];
+  }
+  const auto found = diagnosis_of(data, 0);
+  ASSERT_EQ(found.bench.size(), 1u) << found.because;
+  EXPECT_TRUE(
+      found.bench[0].write.starts_with("columns: {contraction: {column: contraction_ratio, unit: 1, "
+                                       "time: FILL_IN}}, FILL_IN a column of the stamps times 1.0"))
+      << found.bench[0].write;
+}
+
 TEST(Faults, ADriftThatAllRunsHaveIsNoEffect) {
   auto data = small(plant::Rig{});
   const double count = run::contraction_per_count(data.rig);
