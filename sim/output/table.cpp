@@ -219,8 +219,8 @@ std::string lines_of_joint(const run::Comparison& comparison) {
   for (const auto& run : comparison.runs) {
     if (!run.followed()) continue;
     const auto& m = run.metrics;
-    const std::vector<std::string> head{comparison.targets[run.target].name,
-                                        domain::write_kg(run.load_kg), run.controller};
+    const std::vector<std::string> head{comparison.targets[run.target].name, domain::write_kg(run.load_kg),
+                                        run.controller};
     if (!run.failure.empty())
       grid.add(head, "no result");
     else
