@@ -138,6 +138,31 @@ void Search::try_other_laws() {
   }
 }
 
+/// A law of two terms may have been found where one of them is enough, as its range of shapes is wide:
+/// without the term, from where the law stands.
+void Search::try_simpler_laws() {
+  const Point found = here_->point;
+  for (std::size_t i = 0; i < found.effects.size(); ++i) {
+    const Entry& law = dictionary_.entries[found.effects[i].entry];
+    for (std::size_t k = 0; law.effect && k < dictionary_.entries.size(); ++k) {
+      const Entry& other = dictionary_.entries[k];
+      if (other.name != law.name || !other.effect || other.effect->amplitude != law.effect->amplitude ||
+          other.shapes.size() >= law.shapes.size())
+        continue;
+      Added simpler{k, found.effects[i].size, std::vector<double>(other.shapes.size(), 0.0)};
+      for (std::size_t s = 0; s < other.shapes.size(); ++s)
+        for (std::size_t j = 0; j < law.shapes.size(); ++j)
+          if (law.shapes[j].path == other.shapes[s].path)
+            simpler.shapes[s] = other.shapes[s].z(law.shapes[j].value(found.effects[i].shapes[j]));
+      Point point = found.without(i);
+      point.effects.push_back(dictionary_.clipped(std::move(simpler)));
+      std::ranges::sort(point.effects, {}, &Added::entry);
+      Model m = refined(std::move(point));
+      if (m.score > here_->score) here_ = std::move(m);
+    }
+  }
+}
+
 /// Where the bench alone is wrong, the rig may be as described.
 void Search::describe_bench() {
   const Names names = dictionary_.names(here_->point);
@@ -258,6 +283,7 @@ void Search::go_on() {
   last.evidence();
   enter(last);
   if (last.score > here_->score) here_ = std::move(last);
+  try_simpler_laws();
   stage_ = 2;
   describe_bench();
   if (!here_->error.explains()) try_terms();

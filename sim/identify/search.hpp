@@ -105,6 +105,7 @@ class Search {
   std::vector<Start> of_other_sides(const Model& base, const Part& part) const;
   void try_rivals(const Model& base, const std::vector<Start>& starts, const Part& part);
   void try_other_laws();
+  void try_simpler_laws();
   void describe_bench();
   double gain_of_terms(const Model& base) const;
   void try_terms();
