@@ -205,6 +205,8 @@ std::string hidden_in_words(const domain::Campaign& campaign) {
 
 int make_campaign(const DatasetOptions& options, const domain::Campaign& campaign) {
   const auto where = place_of(options, campaign, {"", "-truth", ".unfinished", ".ranks"});
+  domain::Campaign nameless = campaign;  // the name may tell what is hidden
+  nameless.name = "dataset";
   cluster::Workplace place(where.string() + ".ranks", cluster::crew(), say);
   const output::CampaignFolder folder(where, campaign, options.formats,
                                       place.crew().leads() ? output::Say(say) : nullptr);
@@ -214,7 +216,7 @@ int make_campaign(const DatasetOptions& options, const domain::Campaign& campaig
   return in_pieces(options, campaign, place, folder, make, [&] {
     const std::vector<run::EndedRun> runs = folder.runs();
     folder.publish(runs, [&](const std::filesystem::path& data) {
-      return report::report_html(campaign, runs, data::with_rows(input::read_dataset(data)));
+      return report::report_html(nameless, runs, data::with_rows(input::read_dataset(data)));
     });
     warn(run::warnings_of(runs));
     print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});

@@ -21,6 +21,8 @@ std::string job_of(const fs::path& folder) {
   const fs::path manifest = folder / manifest_name;
   std::string job;
   if (fs::is_regular_file(manifest, ignored)) std::getline(std::ifstream(manifest), job);
+  if (const auto secret = job.find(fmt::format(" {}", secret_mark)); secret != std::string::npos)
+    job.resize(secret);
   return printable(shortened(job));
 }
 

@@ -9,6 +9,8 @@ namespace mckibben::input {
 /// In a results folder: in its first line the command that wrote it, then the files
 /// (sim/output/manifest.hpp).
 inline constexpr const char* manifest_name = ".mckibben-files";
+/// In this line, before the digest of what is not to be read.
+inline constexpr const char* secret_mark = "#";
 
 /// For the end of a message: "; written by `mckibben run a.yaml`: give a.yaml", or "; in it: out/rig.yaml".
 std::string what_to_give(const std::filesystem::path& folder);

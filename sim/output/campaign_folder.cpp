@@ -207,13 +207,12 @@ formats::Table CampaignFolder::table_of(const run::CampaignRun& run, const char*
   attributes.emplace_back("current", campaign_.currents[run.job.current].name);
   attributes.emplace_back("repeat", static_cast<double>(run.job.repeat));
   attributes.emplace_back("seed", std::to_string(campaign_.seed));
-  return {fmt::format("{}: {}, {}", campaign_.name, run.job.id, what), std::move(columns),
-          std::move(attributes)};
+  return {fmt::format("{}, {}", run.job.id, what), std::move(columns), std::move(attributes)};
 }
 
 std::string CampaignFolder::package(const char* what, std::vector<formats::Column> columns,
                                     const std::vector<run::EndedRun>& runs) const {
-  Package package{fmt::format("{}: {}", campaign_.name, what), std::move(columns), {}};
+  Package package{fmt::format("a campaign, {}", what), std::move(columns), {}};
   for (const auto& run : runs) {
     if (!run.failure.empty()) continue;
     std::string holds = campaign_.currents[run.job.current].name;
@@ -262,8 +261,10 @@ void CampaignFolder::publish(const std::vector<run::EndedRun>& runs, const Repor
       for (const auto& file : record.value("files", Json::array()))
         files[file.at("name").get<std::string>()] = file.at("sha256").get<std::string>();
     }
-    ResumedFolder::publish({{"truth", truth_, campaign_.job()}, {"data", destination_, campaign_.job()}},
-                           files);
+    // The campaign's name may tell what is hidden.
+    const std::string of_data =
+        fmt::format("dataset {}{}", input::secret_mark, input::sha256_hex(campaign_.job()).substr(0, 16));
+    ResumedFolder::publish({{"truth", truth_, campaign_.job()}, {"data", destination_, of_data}}, files);
   });
 }
 

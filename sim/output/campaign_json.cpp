@@ -114,7 +114,8 @@ std::string json_of(const domain::Campaign& campaign, const std::vector<run::End
   known.rig = known.known;
   document["campaign"] = input::campaign_json(known);
   document["campaign"].erase("noise");
-  document.erase("input_files");  // their names may tell what is hidden
+  document.erase("input_files");  // their names, and its own, may tell what is hidden
+  document["campaign"].erase("name");
   document["runs"] = Json::array();
   for (const auto& run : runs) document["runs"].push_back(entry_json(campaign, run));
   return text_of(document);

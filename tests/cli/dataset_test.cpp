@@ -28,10 +28,25 @@ std::vector<std::vector<double>> numbers(const std::string& text) {
   return rows;
 }
 
+// Whoever gets the data is to find what is hidden.
+TEST_F(Dataset, NothingInTheDataHoldsTheCampaignsName) {
+  write_text(scratch / "leak_of_40.yaml", small_campaign);
+  ASSERT_EQ(run("dataset leak_of_40.yaml --out homework --format netcdf").status, 0);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch / "homework")) {
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    EXPECT_TRUE(lacks(read_text(entry.path()), "leak_of_40")) << entry.path();
+  }
+  EXPECT_GT(files, 10U);
+  ASSERT_EQ(run("dataset leak_of_40.yaml --out homework --seed 9").status, 0);
+  EXPECT_FALSE(exists("homework.old-1")) << "it was known as its own";
+}
+
 TEST_F(Dataset, BothFoldersNameTheCommandThatWroteThem) {
   ASSERT_EQ(run("dataset small.yaml --out d").status, 0);
   EXPECT_TRUE(holds(run("replay d-truth").err, "written by `mckibben dataset small.yaml`"));
-  EXPECT_TRUE(holds(run("run d").err, "written by `mckibben dataset small.yaml`"));
+  EXPECT_TRUE(holds(run("run d").err, "written by `mckibben dataset`"));
 }
 
 TEST_F(Dataset, AndCheckAskAboutALoadThatIsNeverLifted) {
