@@ -57,7 +57,7 @@ struct DiagnoseOptions : Options {
 
 int diagnose_dataset(const DiagnoseOptions& options) {
   domain::Dataset data = tasks::read_measured(options.dataset, options.rig, input::take_rig);
-  const std::vector<std::string> warnings = tasks::prepare(data, options.hypotheses, warn);
+  const tasks::Prepared prepared = tasks::prepare(data, options.hypotheses, warn);
   const std::string name = output::name_of(data);
   check_plan(options.plan);
   identify::Simulated known;
@@ -66,7 +66,7 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   Job job(options, "diagnose " + options.dataset, name + "-diagnose", data.inputs);
   tasks::Found found;
   try {
-    const tasks::Diagnosing how{options.threads, options.seed.value_or(1), options.time_limit_s, warnings,
+    const tasks::Diagnosing how{options.threads, options.seed.value_or(1), options.time_limit_s, prepared,
                                 &known};
     found = with_progress(name, [&](const auto& hook) { return tasks::find(data, how, hook); });
   } catch (const engine::NumericalFailure& error) {

@@ -151,6 +151,7 @@ struct Ranked {
   std::string outcome{};                            ///< why it was taken or not
   double fall = 0.0;                                ///< of the misfit, by the refit
   Side side = Side::both;
+  bool untried = false;  ///< though it promised something
 };
 inline std::string full_name(const Ranked& one) {
   return full_name(one.name, one.variant, one.side);
@@ -258,6 +259,13 @@ struct NextExperiment {
   domain::CampaignCurrent measurement{};  ///< the same current as a campaign or a scenario plays it
 };
 
+/// Where no current tells two explanations apart: how far a gauge on the muscle would, in a run of the data.
+struct NextSensor {
+  std::vector<std::string> separates;
+  std::string run;
+  double expected_power = 0.0;
+};
+
 // NOLINTNEXTLINE(bugprone-exception-escape): moving a rig does not throw
 struct Diagnosis {
   Verdict verdict = Verdict::cannot_tell;
@@ -278,6 +286,7 @@ struct Diagnosis {
   Gap gap{};
   std::vector<RunGap> runs{};
   std::optional<NextExperiment> next_experiment{};
+  std::optional<NextSensor> next_sensor{};
   std::vector<std::string> warnings{};
   std::vector<FaultyRun> faults{};  ///< of the recording; the verdict is on what is left
   Ended ended = Ended::no;          ///< the search, before it was through

@@ -119,6 +119,33 @@ domain::Run played(const Item& item, const Rig& rig, double load_kg) {
   return run;
 }
 
+/// Whether a run of the data had this current under about this load.
+bool is_made(const domain::Dataset& data, const domain::Run& wanted, const Rig& rig) {
+  const PlanThresholds& same = thresholds.plan;
+  const double most_mA = same.same_current * (rig.valve.span_command - rig.valve.zero_command);
+  const auto rows = static_cast<double>(wanted.current_mA.size());
+  const auto off = [&](const domain::Run& run, double begins_s) {
+    double square = 0.0;
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < wanted.current_mA.size(); ++k) {
+      const double time_s = begins_s + static_cast<double>(k) * rig.tick_s;
+      const auto row_s = [&](std::size_t row) {
+        return run.time_s.empty() ? static_cast<double>(row) * data.row_s() : run.time_s[row];
+      };
+      while (at + 1 < run.current_mA.size() && row_s(at + 1) <= time_s + 1e-9) ++at;
+      square += std::pow(run.current_mA[at] - wanted.current_mA[k], 2);
+    }
+    return std::sqrt(square / rows);
+  };
+  return std::ranges::any_of(data.runs, [&](const domain::Run& run) {
+    if (run.current_mA.empty() || std::abs(run.load_kg / wanted.load_kg - 1.0) >= same.same_load)
+      return false;
+    for (double begins_s = 0.0; begins_s < same.begins_s; begins_s += rig.tick_s)
+      if (off(run, begins_s) < most_mA) return true;
+    return false;
+  });
+}
+
 /// Sum of squares of the difference between two readings that no offset and no gain takes away.
 double unexplained(const std::vector<double>& one, const std::vector<double>& other) {
   const auto rows = static_cast<Eigen::Index>(one.size());
@@ -165,13 +192,15 @@ std::optional<NextExperiment> plan(const domain::Dataset& data, unsigned threads
   };
   const auto apart = for_each(items.size() * loads.size(), [&](std::size_t job) {
     const auto run = run_of(job);
+    if (is_made(data, run, one)) return 0.0;  // it was of no help
     const Loaded both[] = {{one, run.load_kg}, {other, run.load_kg}};
     const auto readings = predict(run, both, data.rig.integrator.method);
     return unexplained(readings[0].judged, readings[1].judged);
   });
   const auto promising = largest(apart, thresholds.plan.refitted);
-  const auto powers =
-      for_each(promising.size(), [&](std::size_t i) { return power_of(run_of(promising[i])); });
+  const auto powers = for_each(promising.size(), [&](std::size_t i) {
+    return apart[promising[i]] > 0.0 ? power_of(run_of(promising[i])) : 0.0;
+  });
   const auto best = std::ranges::max_element(powers);
   if (best == powers.end() || *best < thresholds.plan.least_power) return std::nullopt;
   const std::size_t job = promising[static_cast<std::size_t>(best - powers.begin())];

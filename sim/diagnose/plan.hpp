@@ -17,7 +17,8 @@ namespace mckibben::diagnose {
 using Power = std::function<double(const domain::Run& run)>;
 
 /// The measurement of a menu of currents, under loads of the data set, of which that is highest, looked for
-/// among those in which two rigs differ most; none if even that is below 10 %. Throws run::Interrupted.
+/// among those in which two rigs differ most and that no run of the data has made; none if even that is below
+/// 10 %. Throws run::Interrupted.
 std::optional<NextExperiment> plan(const domain::Dataset& data, unsigned threads, const Rig& one,
                                    const Rig& other, std::vector<std::string> names, const Power& power);
 

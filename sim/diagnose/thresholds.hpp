@@ -132,6 +132,11 @@ struct PlanThresholds {
   std::size_t refitted = 8;  ///< items that promise most, for which the other explanation is fitted again
   std::array<double, 3> loads{1.0, 0.5, 1.3};  ///< of the data set's
   double same_load = 0.08;                     ///< relative: one load
+  double same_current = 0.05;                  ///< rms, of the span: a run that has it is of this current,
+  double begins_s = 2.0;                       ///< from so late in the run at most
+  double gauge_Pa = 1e3;                       ///< noise of a gauge that may be added,
+  double gauge_zero_Pa = 2e3;                  ///< and the deviations of its zero
+  double gauge_gain = 0.02;                    ///< and gain
   double least_rise = 0.05;  ///< contraction ratio at the highest pressure: a heavier load is not proposed
 };
 

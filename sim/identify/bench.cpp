@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -47,17 +48,72 @@ std::string more_or_less(double value, const char* more = "more", const char* le
   return value < 0.0 ? less : more;
 }
 
-/// Numbers of runs of one model: value and deviation of each run, of one kind of fault.
+/// Values of one kind of fault in the runs of a model, and their covariance.
 struct EachRun {
-  std::vector<double> values, deviations;
-};
-EachRun each_run(const Model& model, std::size_t place) {
-  EachRun list;
-  const auto i = static_cast<Eigen::Index>(place);
-  for (std::size_t run = 0; run < model.grams.means.size(); ++run) {
-    list.values.push_back(model.grams.means[run][i]);
-    list.deviations.push_back(model.grams.deviations[run][i]);
+  std::vector<double> values{};
+  Eigen::MatrixXd covariance{};
+
+  double deviation(const Eigen::VectorXd& of) const { return std::sqrt(of.dot(covariance * of)); }
+  std::vector<double> deviations() const {
+    const Eigen::VectorXd list = covariance.diagonal().cwiseSqrt();
+    return {list.begin(), list.end()};
   }
+};
+
+/// What runs have in common of one kind of fault, which the rig's parameters can imitate: the median, or one
+/// in proportion to something.
+struct Common {
+  Eigen::VectorXd sizes;    ///< to what it is in proportion, of each run
+  Eigen::VectorXd weights;  ///< of the runs' values in it, a unit of that
+  double value = 0.0;
+
+  Common(const std::vector<double>& values, Eigen::VectorXd of) : sizes(std::move(of)) {
+    const auto share = [&](std::size_t i) { return values[i] / sizes[static_cast<Eigen::Index>(i)]; };
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, share);
+    weights = Eigen::VectorXd::Zero(sizes.size());
+    const std::size_t half = order.size() / 2;
+    for (const std::size_t at : {half, order.size() - half - 1}) {
+      weights[static_cast<Eigen::Index>(order[at])] += 0.5 / sizes[static_cast<Eigen::Index>(order[at])];
+      value += 0.5 * share(order[at]);
+    }
+  }
+  /// Of one run what is its own, as a sum of all values.
+  Eigen::VectorXd own(Eigen::Index run) const {
+    return Eigen::VectorXd::Unit(sizes.size(), run) - sizes[run] * weights;
+  }
+  std::vector<double> owns(const std::vector<double>& values) const {
+    std::vector<double> list = values;
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] -= sizes[static_cast<Eigen::Index>(i)] * value;
+    return list;
+  }
+  /// How far the values are from it, most of them.
+  double spread(const std::vector<double>& values) const {
+    std::vector<double> list = owns(values);
+    for (double& one : list) one = std::abs(one);
+    return middle_of(std::move(list));
+  }
+};
+std::vector<double> values_of(const Model& model, std::size_t place) {
+  std::vector<double> list;
+  for (const Eigen::VectorXd& mean : model.grams.means)
+    list.push_back(mean[static_cast<Eigen::Index>(place)]);
+  return list;
+}
+EachRun each_run(const Model& model, std::size_t place) {
+  EachRun list{.values = values_of(model, place)};
+  const auto i = static_cast<Eigen::Index>(place);
+  const Eigen::Index runs = std::ssize(list.values), k = model.slopes.cols();
+  // How the values change with the model's parameters, which are not known either.
+  Eigen::MatrixXd change(runs, k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const Grams by = model.error.grams(model.slopes.col(j), Eigen::MatrixXd(model.slopes.rows(), 0));
+    for (Eigen::Index run = 0; run < runs; ++run) change(run, j) = by.means[static_cast<std::size_t>(run)][i];
+  }
+  list.covariance = change * model.covariance * change.transpose();
+  for (Eigen::Index run = 0; run < runs; ++run)
+    list.covariance(run, run) += std::pow(model.grams.deviations[static_cast<std::size_t>(run)][i], 2);
   return list;
 }
 
@@ -128,29 +184,61 @@ class FaultReport {
     list_.push_back(std::move(fault));
   }
 
-  /// What all runs have in common is not determined, but for their clocks: each is reported less the median.
+  /// Of loads: a wrong radius of the muscle is a factor of all of them, a wrong zero of its pressure an
+  /// offset.
+  Common common_of(int which, const std::vector<double>& values) const {
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(std::ssize(values));
+    Common offset(values, ones);
+    if (which != loads) return offset;
+    Eigen::VectorXd loads_kg = ones;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      loads_kg[static_cast<Eigen::Index>(i)] = run(i).load_kg + values[i];
+    if (!(loads_kg.minCoeff() > 0.0)) return offset;
+    Common factor(values, loads_kg);
+    return factor.spread(values) < offset.spread(values) ? factor : offset;
+  }
+
+  /// What all runs have in common is not determined, but for their clocks: each is reported less that.
   void differing_runs(std::size_t place) {
     const int which = model_.point.differ[place];
     const EachRun of = each_run(model_, place);
     const bool of_time = which == delays || which == drifts;
-    const double middle = of_time ? 0.0 : middle_of(of.values);
     if (of_time && same_in_all(of)) return report_common(which, of);
-    const auto by = [&](std::size_t i) { return std::abs(of.values[i] - middle); };
+    std::vector<double> values = of.values, deviations = of.deviations();
+    if (!of_time) {
+      const Common common = common_of(which, of.values);
+      values = common.owns(of.values);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        deviations[i] = of.deviation(common.own(static_cast<Eigen::Index>(i)));
+    }
+    const auto by = [&](std::size_t i) { return std::abs(values[i]); };
     std::size_t furthest = 0;
-    for (std::size_t i = 0; i < of.values.size(); ++i)
+    for (std::size_t i = 0; i < values.size(); ++i)
       if (by(i) > by(furthest)) furthest = i;
     for (std::size_t i = 0; i < of.values.size(); ++i)
-      if (i == furthest || (by(i) > stands_out * of.deviations[i] && by(i) > matters * by(furthest)))
-        report(which, i, of.values[i] - middle, of.deviations[i]);
+      if (i == furthest || (by(i) > stands_out * deviations[i] && by(i) > matters * by(furthest)))
+        report(which, i, values[i], deviations[i], which == loads ? exchanged_with(i, values) : std::nullopt);
+  }
+
+  /// The run whose label this one seems to have, and whose seems to have this one's.
+  std::optional<std::size_t> exchanged_with(std::size_t one, const std::vector<double>& off_kg) const {
+    constexpr double near = 0.1;  // of the difference of the labels
+    for (std::size_t other = 0; other < off_kg.size(); ++other) {
+      const double from_one_kg = run(other).load_kg - run(one).load_kg;
+      if (std::abs(off_kg[one] - from_one_kg) < near * std::abs(from_one_kg) &&
+          std::abs(off_kg[other] + from_one_kg) < near * std::abs(from_one_kg))
+        return other;
+    }
+    return std::nullopt;
   }
 
   static bool same_in_all(const EachRun& of) {
     const double middle = middle_of(of.values);
+    const std::vector<double> deviations = of.deviations();
     for (std::size_t i = 0; i < of.values.size(); ++i)
-      if (std::abs(of.values[i] - middle) >
-          std::max(stands_out * of.deviations[i], matters * std::abs(middle)))
+      if (std::abs(of.values[i] - middle) > std::max(stands_out * deviations[i], matters * std::abs(middle)))
         return false;
-    return std::abs(middle) > stands_out * middle_of(of.deviations);
+    return std::abs(middle) > stands_out * middle_of(deviations);
   }
 
   BenchFault fault_of(int which, double value, double deviation) const {
@@ -186,13 +274,15 @@ class FaultReport {
   }
 
   void report_common(int which, const EachRun& of) {
-    BenchFault fault = fault_of(which, middle_of(of.values), middle_of(of.deviations));
+    const double deviation = middle_of(of.deviations());
+    BenchFault fault = fault_of(which, middle_of(of.values), deviation);
     for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
-    tell_of_time(fault, run(0), which, "the readings of every run", middle_of(of.deviations));
+    tell_of_time(fault, run(0), which, "the readings of every run", deviation);
     list_.push_back(std::move(fault));
   }
 
-  void report(int which, std::size_t place, double value, double deviation) {
+  void report(int which, std::size_t place, double value, double deviation,
+              std::optional<std::size_t> exchanged) {
     const domain::Run& of = run(place);
     BenchFault fault = fault_of(which, value, deviation);
     fault.runs = {of.id};
@@ -203,6 +293,11 @@ class FaultReport {
       bench.of_runs[loads].clear();
       fault.write =
           fmt::format("load: {} kg", number_of(bench.load_kg(of.load_kg, place) + value, deviation));
+      if (exchanged) {
+        fault.words +=
+            fmt::format(", as if its label were exchanged with that of run {}", run(*exchanged).id);
+        fault.write = fmt::format("load: {} kg", domain::write_number(run(*exchanged).load_kg));
+      }
     } else if (which == zeros) {
       fault.words = fmt::format("the zero of run {} is {} too {}", of.id,
                                 data::amount_of(data_.judged(), std::abs(value), data_.rig),
@@ -279,7 +374,7 @@ domain::Dataset without_faults(const Model& model) {
     std::vector<double>& read = run.judged();
     double zero = bench.zero, gain = 0.0, drift_per_s = 0.0, late_s = 0.0;
     for (std::size_t place = 0; place < model.point.differ.size(); ++place) {
-      const double own = each_run(model, place).values[i];
+      const double own = values_of(model, place)[i];
       if (model.point.differ[place] == zeros) zero += own;
       if (model.point.differ[place] == gains) gain += own;
       if (model.point.differ[place] == delays) late_s += own;

@@ -52,6 +52,7 @@ class HandingOver {
     result_.contradicts_sheet = found_.decision.contradicts_sheet;
     const std::size_t handed = handed_over();
     report_model(handed);
+    report_loads();
     result_.explanations = explanations(found_, rms_);
     result_.ranking = ranking(found_, rms_);
     step("where model and data disagree");
@@ -196,6 +197,21 @@ class HandingOver {
       if (std::ranges::any_of(open.parameters, unknown)) warn("not determined by these data: " + open.words);
   }
 
+  /// An estimate replaces what was guessed before.
+  void report_loads() {
+    const auto offset = std::ranges::find(result_.recalibrated, "joint.load_offset",
+                                          [](const diagnose::Moved& one) { return one.fitted.name; });
+    if (offset != result_.recalibrated.end() && offset->notable()) return;
+    const auto estimated = [&](const std::string& run) {
+      return std::ranges::any_of(result_.bench, [&](const diagnose::BenchFault& fault) {
+        return (fault.name == "load_label" || fault.name == "loads_differ") &&
+               (data_.parts_of_a_run || std::ranges::find(fault.runs, run) != fault.runs.end());
+      });
+    };
+    for (const LoadDoubt& doubt : reporting_.of_loads)
+      if (std::ranges::none_of(doubt.runs, estimated)) warn(doubt.words);
+  }
+
   /// The rig as described, its parameters alone, and the one that is handed over.
   Three three(std::size_t handed) const {
     const auto place = [&](bool described) {
@@ -241,8 +257,10 @@ class HandingOver {
       const auto names = model.problem->dictionary.names(model.point);
       return names.empty() ? std::string("other parameters") : fmt::format("{}", fmt::join(names, " with "));
     };
-    result_.next_experiment =
-        next_measurement(found_.chosen(), *rival, {words(found_.chosen()), words(*rival)}, settings_.threads);
+    const std::vector<std::string> both{words(found_.chosen()), words(*rival)};
+    result_.next_experiment = next_measurement(found_.chosen(), *rival, both, settings_.threads);
+    if (!result_.next_experiment)
+      result_.next_sensor = next_sensor(found_.chosen(), *rival, both, settings_.threads);
   }
 
   void report_verdict() {

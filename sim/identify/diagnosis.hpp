@@ -10,10 +10,18 @@
 
 namespace mckibben::identify {
 
+/// Runs whose load is doubted, by their ids, and what is to be said of it.
+struct LoadDoubt {
+  std::vector<std::string> runs;
+  std::string words;
+};
+
 /// What is handed over besides the search.
 struct Reporting {
   std::uint64_t seed = 1;               ///< of resampling
   std::vector<std::string> warnings{};  ///< of the recordings, known before; reported first
+  /// Doubts of the labels of loads, known before: reported where the diagnosis has not estimated these.
+  std::vector<LoadDoubt> of_loads{};
 };
 
 /// The best that was found, also where the search was ended or decided nothing. Throws

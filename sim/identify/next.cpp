@@ -11,6 +11,7 @@
 #include <sim/identify/decisive.hpp>
 #include <sim/identify/next.hpp>
 #include <sim/identify/quadratic.hpp>
+#include <sim/run/batch.hpp>
 
 namespace mckibben::identify {
 
@@ -24,7 +25,9 @@ struct Foreseen {
   Eigen::MatrixXd columns;
 };
 
-Foreseen foreseen(const Model& model, const domain::Run& run) {
+using Reading = std::vector<double> data::Expected::*;
+
+Foreseen foreseen(const Model& model, const domain::Run& run, Reading reading = &data::Expected::judged) {
   const Dictionary& dictionary = model.problem->dictionary;
   const Eigen::VectorXd v = dictionary.vector(model.point);
   std::vector<diagnose::Loaded> rigs;
@@ -45,7 +48,8 @@ Foreseen foreseen(const Model& model, const domain::Run& run) {
     for (std::size_t i = first; i < last; ++i) group.push_back(rigs[i]);
     const auto readings = diagnose::predict(run, group, model.problem->rows.data().rig.integrator.method);
     const auto of = [&](std::size_t i) {
-      return Eigen::Map<const Eigen::VectorXd>(readings[i].judged.data(), std::ssize(readings[i].judged));
+      const std::vector<double>& read = readings[i].*reading;
+      return Eigen::Map<const Eigen::VectorXd>(read.data(), std::ssize(read));
     };
     if (first == 0) {
       result.read = of(0);
@@ -63,14 +67,15 @@ double long_variance(const Model& model) {
   return white * white + 2.0 * of_model * of_model * model.error.length_s() / model.problem->rows.row_s;
 }
 
-/// Probability that a model becomes less probable by so much where a run reads `truth`.
-double power(const Model& model, const Foreseen& by, const Eigen::VectorXd& truth) {
-  const double variance = long_variance(model);
+/// Probability that a model becomes less probable by so much where a run reads `truth`, with this variance.
+double power(const Model& model, const Foreseen& by, const Eigen::VectorXd& truth, double variance) {
   const Eigen::VectorXd off = truth - by.read;
   double square = off.squaredNorm();
   if (by.columns.cols() > 0) {
-    const Eigen::MatrixXd known = variance * curvature(model.grams.sum(), model.variance().cwiseInverse()) +
-                                  by.columns.transpose() * by.columns;
+    Eigen::MatrixXd known = Eigen::MatrixXd::Identity(by.columns.cols(), by.columns.cols());
+    const Eigen::MatrixXd of_model = curvature(model.grams.sum(), model.variance().cwiseInverse());
+    known.topLeftCorner(of_model.rows(), of_model.cols()) = of_model;
+    known = variance * known + by.columns.transpose() * by.columns;
     const Eigen::VectorXd along = by.columns.transpose() * off;
     square -= along.dot(known.llt().solve(along));
   }
@@ -86,9 +91,50 @@ std::optional<diagnose::NextExperiment> next_measurement(const Model& one, const
   return diagnose::plan(one.problem->rows.data(), threads, rig_of(one), rig_of(other), std::move(names),
                         [&](const domain::Run& run) {
                           const Foreseen by_one = foreseen(one, run), by_other = foreseen(other, run);
-                          return std::min(power(other, by_other, by_one.read),
-                                          power(one, by_one, by_other.read));
+                          return std::min(power(other, by_other, by_one.read, long_variance(other)),
+                                          power(one, by_one, by_other.read, long_variance(one)));
                         });
+}
+
+std::optional<diagnose::NextSensor> next_sensor(const Model& one, const Model& other,
+                                                std::vector<std::string> names, unsigned threads) {
+  const domain::Dataset& data = one.problem->rows.data();
+  if (data.pressure_is_given() || data.rig.pair() != nullptr ||
+      std::ranges::any_of(data.runs, [](const auto& run) { return run.muscle_pressure_Pa.has_value(); }))
+    return std::nullopt;
+  const auto rig_of = [](const Model& model) { return model.problem->dictionary.setting(model.point).rig; };
+  const plant::Rig rigs[] = {rig_of(one), rig_of(other)};
+  const std::vector<std::size_t>& runs = one.problem->rows.runs;
+  std::vector<double> apart(runs.size(), 0.0);
+  run::for_each_job(
+      runs.size(), threads,
+      [&](std::size_t i) {
+        const domain::Run& run = data.runs[runs[i]];
+        const diagnose::Loaded both[] = {{rigs[0], run.load_kg}, {rigs[1], run.load_kg}};
+        const auto read = diagnose::predict(run, both, data.rig.integrator.method);
+        for (std::size_t k = 0; k < read[0].pressure_Pa.size(); ++k)
+          apart[i] += std::pow(read[0].pressure_Pa[k] - read[1].pressure_Pa[k], 2);
+      },
+      [](std::size_t) {});
+  const auto best = static_cast<std::size_t>(std::ranges::max_element(apart) - apart.begin());
+  const domain::Run& run = data.runs[runs[best]];
+  const auto with_gauge = [&](const Model& model) {
+    Foreseen by = foreseen(model, run, &data::Expected::pressure_Pa);
+    // A gauge has a zero and a gain of its own.
+    const diagnose::PlanThresholds& usual = diagnose::thresholds.plan;
+    by.columns.conservativeResize(by.read.size(), by.columns.cols() + 2);
+    by.columns.rightCols(2) << Eigen::VectorXd::Constant(by.read.size(), usual.gauge_zero_Pa),
+        usual.gauge_gain * by.read;
+    return by;
+  };
+  const Foreseen by_one = with_gauge(one), by_other = with_gauge(other);
+  // A model errs in pressure, too, for as long as in its other readings: as much as the gauge scatters.
+  const double variance = 2.0 * std::pow(diagnose::thresholds.plan.gauge_Pa, 2) * decisive.error_length_s /
+                          one.problem->rows.row_s;
+  return diagnose::NextSensor{.separates = std::move(names),
+                              .run = run.id,
+                              .expected_power = std::min(power(other, by_other, by_one.read, variance),
+                                                         power(one, by_one, by_other.read, variance))};
 }
 
 }  // namespace mckibben::identify

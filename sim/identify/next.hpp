@@ -16,4 +16,9 @@ namespace mckibben::identify {
 std::optional<diagnose::NextExperiment> next_measurement(const Model& one, const Model& other,
                                                          std::vector<std::string> names, unsigned threads);
 
+/// The same of a gauge on the muscle, in the run of the data in which two models differ most; none if the
+/// data have one, or if pressures are given.
+std::optional<diagnose::NextSensor> next_sensor(const Model& one, const Model& other,
+                                                std::vector<std::string> names, unsigned threads);
+
 }  // namespace mckibben::identify

@@ -86,9 +86,11 @@ void support(const Identified& found, std::vector<NamedEffect>& effects) {
       const bool in_its_place =
           std::ranges::any_of(other.names, [&](const std::string& one) { return !has(chosen.names, one); });
       if (!in_its_place) continue;
-      effect.support.before_rivals =
-          std::min(effect.support.before_rivals, 2.0 * (chosen.score - other.score));
-      if (!rivals_chosen(found, i)) continue;
+      if (!rivals_chosen(found, i)) {
+        effect.support.before_rivals =
+            std::min(effect.support.before_rivals, 2.0 * (chosen.score - other.score));
+        continue;
+      }
       for (const std::string& one : other.names) {
         const EffectName rival = who(study.dictionary, one);
         if (!has(chosen.names, one) &&
@@ -178,11 +180,11 @@ std::vector<diagnose::Ranked> ranking(const Identified& found, const std::vector
     diagnose::Ranked one{
         .name = of.effect,
         .score = promised == found.promised.end() ? 0.0 : std::max(0.0, 2.0 * promised->second),
-        .outcome = promised != found.promised.end() && promised->second > decisive.strong
-                       ? "not tried: others promised more"
-                       : "promises too little",
-        .side = of.side};
+        .side = of.side,
+        .untried = promised != found.promised.end() && promised->second > decisive.strong};
+    one.outcome = one.untried ? "not tried: others promised more" : "promises too little";
     if (best) {
+      one.untried = false;
       one.refitted = true;
       one.training_rmse = found.models[*best].left() * study.rows.unit;
       one.held_out_rmse = left[*best];

@@ -19,6 +19,7 @@ MCKIBBEN_MEMBERS_AS_JSON(BesideGap, reading, unit, noise_floor, nominal_rmse, re
                          corrected_rmse)
 MCKIBBEN_MEMBERS_AS_JSON(Start, lasting_s, share_of_gap, share_of_time, unsettled)
 MCKIBBEN_MEMBERS_AS_JSON(NextExperiment, separates, current, load_kg, expected_power, waveform)
+MCKIBBEN_MEMBERS_AS_JSON(NextSensor, separates, run, expected_power)
 MCKIBBEN_MEMBERS_AS_JSON(RunGap, id, load_kg, held_out, left_out, nominal_rmse, recalibrated_rmse,
                          corrected_rmse)
 MCKIBBEN_MEMBERS_AS_JSON(Ranked, round, name, variant, score, likeness, refitted, outcome)
@@ -232,6 +233,7 @@ std::string json_of(const domain::Dataset& data, const diagnose::Diagnosis& diag
                 {"gap", gap_json(diagnosis)},
                 {"remaining", remaining_json(diagnosis.remaining)},
                 {"next_experiment", diagnosis.next_experiment ? Json(*diagnosis.next_experiment) : Json()},
+                {"next_sensor", diagnosis.next_sensor ? Json(*diagnosis.next_sensor) : Json()},
                 {"search", search_json(diagnosis)},
                 {"false_alarm_rate", diagnosis.false_alarm_rate},
                 {"seed", diagnosis.seed},

@@ -1,6 +1,7 @@
 // Rig and campaign files of a diagnosis; see the header.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -58,6 +59,19 @@ Json corrected_rig(const domain::Dataset& data, const diagnose::Diagnosis& diagn
   return file;
 }
 
+/// With a comment at the key of each effect that others could be.
+std::string with_doubts(const std::string& yaml, const diagnose::Diagnosis& diagnosis) {
+  std::string text;
+  std::istringstream lines(yaml);
+  for (std::string line; std::getline(lines, line); text += line + '\n')
+    for (const auto& effect : diagnosis.effects) {
+      const std::string others = or_others(effect);
+      if (!others.empty() && line.ends_with(" " + effect.name + ":"))
+        line += fmt::format("  # {}: these data do not distinguish them", others);
+    }
+  return text;
+}
+
 /// A text as comment, whatever lines it has.
 std::string comment(const std::string& text) {
   std::string lines = "# ";
@@ -80,7 +94,11 @@ std::string origin(const domain::Dataset& data, const diagnose::Diagnosis& diagn
                                 words_of(effect.name, diagnosis.corrected.effects).sentence));
     for (const auto& parameter : effect.parameters) text += number_line(parameter.name, parameter, "");
   };
-  for (const auto& effect : diagnosis.effects) add("Added", effect);
+  for (const auto& effect : diagnosis.effects) {
+    add("Added", effect);
+    if (const std::string others = or_others(effect); !others.empty())
+      text += comment(fmt::format("  {}: these data do not distinguish them", others));
+  }
   for (const auto& effect : diagnosis.stand_ins) add("Added in place of something unknown", effect);
   if (!diagnosis.residual_law.empty())
     text += comment("Added: a force outside the catalogue, valid for " + diagnosis.law_valid_for);
@@ -184,7 +202,7 @@ std::string law_yaml(const domain::Dataset& data, const diagnose::Diagnosis& dia
 std::string rig_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   Json file{{"schema", input::rig_schema}};
   file.update(corrected_rig(data, diagnosis));
-  return origin(data, diagnosis) + input::to_yaml(file);
+  return origin(data, diagnosis) + with_doubts(input::to_yaml(file), diagnosis);
 }
 
 std::string plan_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
@@ -197,7 +215,8 @@ std::string plan_yaml(const domain::Dataset& data, const diagnose::Diagnosis& di
          comment(fmt::format("It separates {} with a probability of {:.0f} %: {}.", listed(next.separates),
                              100.0 * next.expected_power, next.current)) +
          comment("`mckibben dataset` makes the current's table and what the corrected rig would do.") +
-         comment("Add the measured run to the data set and diagnose again.") + input::to_yaml(file);
+         comment("Add the measured run to the data set and diagnose again.") +
+         with_doubts(input::to_yaml(file), diagnosis);
 }
 
 }  // namespace mckibben::output

@@ -39,8 +39,13 @@ std::string added(const Diagnosis& diagnosis) {
     const Readable shown = readable(fitted);
     grid.add({effect, name, shown.value, shown.interval});
   };
-  for (const auto& effect : diagnosis.effects)
-    for (const auto& parameter : effect.parameters) add(full_name(effect), parameter.name, parameter);
+  std::string marks;
+  for (const auto& effect : diagnosis.effects) {
+    const std::string others = or_others_line(effect);
+    for (const auto& parameter : effect.parameters)
+      add(full_name(effect) + (others.empty() ? "" : " *"), parameter.name, parameter);
+    if (!others.empty()) marks += "  " + others + "\n";
+  }
   for (const auto& effect : diagnosis.stand_ins)
     for (const auto& parameter : effect.parameters)
       add(full_name(effect) + " (fits, no finding)", parameter.name, parameter);
@@ -48,7 +53,7 @@ std::string added(const Diagnosis& diagnosis) {
     add("residual_law", term.term, term.coefficient);
     for (const auto& shape : term.shape) add("", shape.name, shape);
   }
-  return grid.empty() ? "" : grid.text();
+  return grid.empty() ? "" : grid.text() + marks;
 }
 
 std::string moved(const Diagnosis& diagnosis) {
@@ -80,7 +85,8 @@ std::string gap(const Diagnosis& diagnosis, const plant::Rig& rig) {
   };
   grid.add({error(gap.nominal_rmse), error(gap.recalibrated_rmse), error(gap.corrected_rmse),
             error(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
-  return grid.text();
+  const std::string why = why_recalibrated_is_worse(diagnosis);
+  return grid.text() + (why.empty() ? "" : "  " + why + "\n");
 }
 
 std::string beside(const Diagnosis& diagnosis) {
@@ -95,13 +101,10 @@ std::string beside(const Diagnosis& diagnosis) {
 
 std::string twins(const Diagnosis& diagnosis) {
   std::string text;
-  for (const auto& effect : diagnosis.effects)
-    if (!effect.confusable_with.empty())
-      text += fmt::format("  {}: {}\n", effect.who().words(), listed(words_of(effect.confusable_with)));
   std::size_t others = 0;
   for (const auto& one : diagnosis.explanations)
     if (one.as_good && !one.chosen && ++others <= most_others)
-      text += fmt::format("  {} (misfit {:.0f})\n", explained_by(one), one.misfit);
+      text += fmt::format("  {}\n", explained_by(one));
   if (others > most_others)
     text += fmt::format("  and {} more: explanations in diagnosis.json\n", others - most_others);
   return text;
@@ -109,7 +112,8 @@ std::string twins(const Diagnosis& diagnosis) {
 
 std::string next(const Diagnosis& diagnosis) {
   if (!diagnosis.next_experiment) {
-    return is_unexplained(diagnosis) ? "  " + what_next(diagnosis) + "\n" : "";
+    const std::string words = what_next(diagnosis);
+    return words.empty() ? "" : "  " + words + "\n";
   }
   const auto& next = *diagnosis.next_experiment;
   return fmt::format("  {}, with {}: separates {} with a probability of {:.0f} %\n", next.current,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <tuple>
 
@@ -162,16 +163,41 @@ std::string listed(const std::vector<std::string>& names) {
   return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
 }
 
+std::string or_others(const diagnose::NamedEffect& effect) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> others = words_of(effect.confusable_with);
+  if (others.size() > most) {
+    const std::size_t more = others.size() - most + 1;
+    others.resize(most - 1);
+    others.push_back(fmt::format("{} more", more));
+  }
+  if (others.empty()) return "";
+  const std::string last = others.back();
+  others.pop_back();
+  return others.empty() ? "or " + last : fmt::format("or {} or {}", fmt::join(others, ", "), last);
+}
+
+std::string or_others_line(const diagnose::NamedEffect& effect) {
+  const std::string others = or_others(effect);
+  return others.empty() ? "" : fmt::format("* {}: these data do not distinguish them.", others);
+}
+
 std::string title_of(const diagnose::Diagnosis& diagnosis) {
   std::vector<std::string> found;
-  for (const auto& effect : diagnosis.effects) found.push_back(effect.who().words());
+  bool open = false;
+  for (const auto& effect : diagnosis.effects) {
+    const std::string others = or_others(effect);
+    open = open || !others.empty();
+    found.push_back(effect.who().words() + (others.empty() ? "" : " " + others));
+  }
   switch (diagnosis.verdict) {
     case diagnose::Verdict::nothing_missing:
       return "Nothing is missing";
     case diagnose::Verdict::recalibrate:
       return "The rig needs other numbers, not another effect";
     case diagnose::Verdict::missing_effect:
-      return "Missing: " + listed(found) + (diagnosis.residual_law.empty() ? "" : ", and something else") +
+      return "Missing: " + (open ? fmt::format("{}", fmt::join(found, ", and ")) : listed(found)) +
+             (diagnosis.residual_law.empty() ? "" : ", and something else") +
              (diagnosis.contradicts_sheet ? ", if the rig file's ± are wrong" : "");
     case diagnose::Verdict::unknown_effect:
       return "Something outside the catalogue is missing";
@@ -185,7 +211,9 @@ std::string explained_by(const diagnose::Explanation& explanation) {
   using enum diagnose::Explanation::Kind;
   switch (explanation.kind) {
     case nothing:
-      return "nothing: the rig as described";
+      return explanation.effects.empty()
+                 ? "nothing: the rig as described"
+                 : fmt::format("{} on the rig as described", fmt::join(explanation.effects, " with "));
     case numbers:
       return "other numbers, as far off as is stated";
     case further_numbers:
@@ -198,10 +226,61 @@ std::string explained_by(const diagnose::Explanation& explanation) {
   return fmt::format("{}", fmt::join(explanation.effects, " with "));
 }
 
+std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis) {
+  if (diagnosis.gap.recalibrated_rmse <= diagnosis.gap.nominal_rmse) return "";
+  return "The recalibrated rig is worse than the nominal one: its parameters maximise the probability of the "
+         "other runs, not this rms, and a model that lacks something predicts poorly what it was not fitted "
+         "to.";
+}
+
 bool is_unexplained(const diagnose::Diagnosis& diagnosis) {
   return diagnosis.verdict != diagnose::Verdict::nothing_missing &&
          diagnosis.gap.floors_left() > diagnose::thresholds.start.explained_floors;
 }
+
+namespace {
+
+/// Of effects that were named: what would choose between them and others.
+std::string what_decides(const diagnose::Diagnosis& diagnosis) {
+  const auto has_others = [](const auto& effect) { return !effect.confusable_with.empty(); };
+  const bool twins = std::ranges::any_of(diagnosis.effects, has_others);
+  if (twins && diagnosis.corrected.pair() != nullptr)
+    return "No measurement of a joint's angle is planned that would distinguish these names.";
+  std::vector<std::string> as_good, untried;
+  for (const auto& one : diagnosis.explanations)
+    if (one.as_good && !one.chosen) as_good.push_back(explained_by(one));
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& effect : diagnosis.effects) least = std::min(least, effect.support.fall);
+  for (const auto& one : diagnosis.ranking)
+    if (one.untried && one.score >= least) untried.push_back(full_name(one));
+  std::string words;
+  if (diagnosis.next_sensor) {
+    const auto& sensor = *diagnosis.next_sensor;
+    const std::string names = listed(sensor.separates);
+    words = sensor.expected_power < diagnose::thresholds.plan.least_power
+                ? fmt::format("Neither another current nor a pressure gauge on the muscle would separate {}.",
+                              names)
+                : fmt::format(
+                      "No other current would separate {}. A pressure gauge on the muscle would, in "
+                      "a run like {}, with a probability of {:.0f} %.",
+                      names, sensor.run, 100.0 * sensor.expected_power);
+  } else if (twins) {
+    words = "No current that was tried and is not yet in the data would distinguish these names.";
+  } else if (!as_good.empty()) {
+    words = fmt::format("Not decided: {} may explain the data as well.", listed(as_good));
+  }
+  if (!untried.empty()) {
+    constexpr std::size_t most = 4;
+    const std::size_t more = untried.size() - std::min(untried.size(), most);
+    untried.resize(untried.size() - more);
+    if (more > 0) untried.push_back(fmt::format("{} more", more));
+    words += fmt::format("{}Not tried, though by a linear model they might explain as much: {}.",
+                         words.empty() ? "" : " ", listed(untried));
+  }
+  return words.empty() ? "No further measurement is needed to choose between names." : words;
+}
+
+}  // namespace
 
 std::string what_next(const diagnose::Diagnosis& diagnosis) {
   using enum diagnose::Verdict;
@@ -214,13 +293,7 @@ std::string what_next(const diagnose::Diagnosis& diagnosis) {
         "one of the runs again: what two equal runs differ by is noise, "
         "what is left beyond it is not in the rig.",
         diagnosis.gap.floors_left());
-  const bool twins = std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
-                                 [](const auto& effect) { return !effect.confusable_with.empty(); });
-  if (diagnosis.verdict == missing_effect && twins && diagnosis.corrected.pair() != nullptr)
-    return "No measurement of a joint's angle is planned that would distinguish these names.";
-  if (diagnosis.verdict == missing_effect)
-    return twins ? "No current that was tried would distinguish these names."
-                 : "No further measurement is needed to choose between names.";
+  if (diagnosis.verdict == missing_effect) return what_decides(diagnosis);
   if (diagnosis.verdict == recalibrate)
     return "Check the numbers that moved most against a ruler or the data sheet.";
   if (diagnosis.verdict == unknown_effect && !diagnosis.law_valid_for.empty())

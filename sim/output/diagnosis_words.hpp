@@ -52,7 +52,13 @@ std::string rounded(double value, int decimals, bool sign = false);
 /// "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& names);
 
-/// The verdict as a heading, with the effects' names.
+/// The names that explain the data as well as an effect: "or command_delay", "or A, B or 2 more"; empty if
+/// there are none.
+std::string or_others(const diagnose::NamedEffect& effect);
+/// The same of effects, in a line that explains a mark in a table: "* or command_delay: ..."; empty if none.
+std::string or_others_line(const diagnose::NamedEffect& effect);
+
+/// The verdict as a heading, with the effects' names and those that are as good.
 std::string title_of(const diagnose::Diagnosis& diagnosis);
 
 using diagnose::full_name;
@@ -60,6 +66,9 @@ using diagnose::full_name;
 /// What an explanation that competed explains the data by: "muscle_leak with valve_lag", "numbers further off
 /// than they are stated to be".
 std::string explained_by(const diagnose::Explanation& explanation);
+
+/// How the recalibrated rig can be worse than the nominal one; empty where it is not.
+std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis);
 
 /// Whether more is left than noise and what the verdict is about.
 bool is_unexplained(const diagnose::Diagnosis& diagnosis);

@@ -103,9 +103,8 @@ Diagnosis diagnose(const domain::Dataset& dataset, const py::object& rig,
   const auto data = std::make_shared<domain::Dataset>(dataset);
   if (!rig.is_none()) input::take_rig(*data, "rig", rig_of(rig).file);
   return long_work(progress, [&](const run::ProgressHook& hook) {
-    const std::vector<std::string> warnings =
-        tasks::prepare(*data, hypotheses, [](const std::vector<std::string>&) {});
-    tasks::Diagnosing how{.threads = threads, .seed = seed, .warnings = warnings};
+    tasks::Prepared prepared = tasks::prepare(*data, hypotheses, [](const std::vector<std::string>&) {});
+    tasks::Diagnosing how{.threads = threads, .seed = seed, .prepared = std::move(prepared)};
     if (time_limit_s) how.time_limit_s = *time_limit_s;
     return Diagnosis{data, std::make_shared<const tasks::Found>(tasks::find(*data, how, hook))};
   });

@@ -37,9 +37,13 @@ std::string found(const Diagnosis& diagnosis) {
     const auto shown = readable(fault);
     rows += row(fault.name, {fault.words, shown.value, shown.interval});
   }
-  for (const auto& effect : diagnosis.effects)
+  std::string marks;
+  for (const auto& effect : diagnosis.effects) {
+    const std::string others = output::or_others_line(effect);
     for (const auto& parameter : effect.parameters)
-      rows += found_row(full_name(effect), parameter.name, parameter);
+      rows += found_row(full_name(effect) + (others.empty() ? "" : " *"), parameter.name, parameter);
+    if (!others.empty()) marks += paragraph(others);
+  }
   for (const auto& effect : diagnosis.stand_ins)
     for (const auto& parameter : effect.parameters)
       rows += found_row(full_name(effect) + " (fits, no finding)", parameter.name, parameter);
@@ -51,7 +55,8 @@ std::string found(const Diagnosis& diagnosis) {
         rows += found_row("recalibrated", moved.fitted.name, moved.fitted);
   const std::string verdict = fmt::format("Verdict: {}", plant::name_of(diagnosis.verdict));
   if (rows.empty()) return "<p><b>" + escaped(verdict) + "</b></p>\n";
-  return table(verdict, {"found", "parameter", "value", "95 % interval"}, rows);
+  return "<div>" + table(verdict, {"found", "parameter", "value", "95 % interval"}, rows) + marks +
+         "</div>\n";
 }
 
 /// What to write in the data set where the bench is at fault.
@@ -103,14 +108,12 @@ std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
 std::string ranking_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.ranking.empty()) return "";
   return paragraph(
-             "Every candidate is scored: how far straight lines promise that the misfit falls with it, "
-             "beyond "
-             "what the rig's parameters can imitate (dashed bars); one that would have to act the wrong way "
-             "round has none. Those that promise most are fitted: their full bars show how far the misfit "
-             "did "
-             "fall from that of the fitted parameters, and under them stands what came of it, with the error "
-             "left on the runs held out. Left of the dashed line a fall is chance. All bars have one "
-             "logarithmic scale.") +
+             "Misfit is -2 log of the probability of the data; 6 less are strong evidence. Dashed bars: by "
+             "how much a linear model promises that it falls with a candidate, beyond what the rig's "
+             "parameters can imitate; a candidate that would have to act the wrong way round has none. The "
+             "most promising are fitted. Full bars: by how much the misfit fell from that of the fitted "
+             "parameters, with the outcome and the error on the runs held out. Left of the dashed line a "
+             "fall is chance. All bars have one logarithmic scale.") +
          figures_html(ranking_pictures(diagnosis, rig));
 }
 
@@ -175,8 +178,10 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
     const auto words = output::words_of(effect.name, diagnosis.corrected.effects);
     std::string says(words.sentence);
     if (!says.empty() && says[0] >= 'a' && says[0] <= 'z') says[0] = static_cast<char>(says[0] - 'a' + 'A');
+    const std::string others = output::or_others(effect);
+    const std::string name = full_name(effect) + (others.empty() ? "" : " " + others);
     html += fmt::format("<h3>{}</h3>\n<p>{}.<br>Law: <code>{}</code><br><span class='small'>{}</span></p>\n",
-                        escaped(full_name(effect)), escaped(says), escaped(words.law), escaped(words.source));
+                        escaped(name), escaped(says), escaped(words.law), escaped(words.source));
     if (effect.stands_in) html += paragraph("No finding: something outside the catalogue is missing.");
   };
   for (const auto& effect : diagnosis.effects) add(effect);
@@ -256,6 +261,8 @@ std::string result_table(const domain::Dataset& data, const Diagnosis& diagnosis
   rows += fmt::format("<tr><th scope='row'>noise floor</th><td>{}</td><td></td></tr>\n",
                       amount_html(gap.noise_floor, gap.judged, data.rig));
   html += "<div>" + table(caption, {"rig", "error", "over floor"}, rows) + beside_html(gap);
+  if (const std::string why = output::why_recalibrated_is_worse(diagnosis); !why.empty())
+    html += paragraph(why);
   if (!few && !output::each_is_held_out(diagnosis))
     html += folded("Which runs are held out", paragraph(output::listed(unseen)));
   return html + "</div></div>\n";

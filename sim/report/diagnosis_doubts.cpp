@@ -56,10 +56,10 @@ std::string competition_html(const Diagnosis& diagnosis, const plant::Rig& rig) 
   if (rows.empty()) return "";
   return folded(
       "What competed",
-      paragraph("Every candidate model that was fitted, or the best of its kind. The misfit is the sum of "
-                "squares of the fitted runs over their long-term variance, and the prior penalty: the "
-                "squared deviations by which the rig's parameters moved (further off: of wider ones, by "
-                "5/3). If equivalent, parameters are preferred to names, names to a law.") +
+      paragraph("Every candidate model that was fitted, or the best of its kind. The misfit, -2 log of the "
+                "probability, is given above that of the most probable model; a model that is 20 times less "
+                "probable has 6 more. The prior penalty is the sum of the squared deviations by which the "
+                "rig's parameters moved. If equivalent, parameters are preferred to names, names to a law.") +
           "<div class='wide' tabindex='0'>" +
           table("Candidate models", {"by", "misfit", "prior penalty", "error held out", "equivalent"}, rows) +
           "</div>\n");

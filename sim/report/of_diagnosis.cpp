@@ -215,6 +215,16 @@ std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
           loops_of(data.rig, {}).front()};
 }
 
+std::string floor_in_words(const domain::Dataset& data, const diagnose::Gap& gap) {
+  const std::string floor =
+      gap.noise_floor > 0.0 ? fmt::format(", here {},", output::amount(gap.noise_floor, gap.judged, data.rig))
+                            : "";
+  return fmt::format(
+      "Differences below the noise floor{} are hidden by the counts and the scatter of the "
+      "readings, or occur between equal runs.",
+      floor);
+}
+
 }  // namespace
 
 std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
@@ -234,13 +244,9 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
                             data.rig),
       .table = result_table(data, diagnosis),
       .details = output::table_of(data, diagnosis),
-      .beside =
-          fmt::format("{}The noise floor is what counting and jitter of the readings "
-                      "(here "
-                      "{}) let nobody see, or what equal runs differ by. Seed {}. Every number is in "
-                      "diagnosis.json, the corrected rig in rig.yaml.",
-                      output::words_of(data.judged()).note,
-                      output::amount(diagnosis.gap.jitter, diagnosis.gap.judged, data.rig), diagnosis.seed),
+      .beside = fmt::format("{}{} Seed {}. Every number is in diagnosis.json, the corrected rig in rig.yaml.",
+                            output::words_of(data.judged()).note, floor_in_words(data, diagnosis.gap),
+                            diagnosis.seed),
       .chapters = story(data, diagnosis, ordered(diagnosis.runs, output::changed(diagnosis))),
       .later_chapters = doubts_and_plan(data, diagnosis),
       .short_on_paper = true,

@@ -92,10 +92,13 @@ Part part_of_law(const std::string& name, const plant::Effects& effects) {
 std::vector<Found> found_in(const Diagnosis& diagnosis) {
   std::vector<Found> list;
   for (const auto* effects : {&diagnosis.effects, &diagnosis.stand_ins})
-    for (const auto& effect : *effects)
+    for (const auto& effect : *effects) {
       list.push_back({part_of(effect.name).value_or(part_of_law(effect.name, diagnosis.corrected.effects)),
                       effect.who().words(),
                       effect.parameters.empty() ? "" : output::readable(effect.parameters.front()).value});
+      if (const std::string others = output::or_others(effect); !others.empty())
+        list.back().size += (list.back().size.empty() ? "" : "; ") + others;
+    }
   if (!diagnosis.residual_law.empty())
     list.push_back(
         {Part::muscle, "a law of force", output::readable(diagnosis.residual_law.front().coefficient).value});

@@ -162,11 +162,12 @@ void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data
 
 }  // namespace
 
-std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses,
-                                 const std::function<void(const std::vector<std::string>&)>& say) {
+Prepared prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses,
+                 const std::function<void(const std::vector<std::string>&)>& say) {
   add_hypotheses(hypotheses, data);
   std::vector<data::Finding> asked = asked_of(data);
-  std::vector<std::string> warnings = in_words(data, asked);
+  Prepared prepared{in_words(data, asked)};
+  std::vector<std::string>& warnings = prepared.warnings;
   input::require_judged(data, "diagnose");
   for (const data::Finding& finding : data::mend_at_stamps(data))
     warnings.push_back(data::text_of(data, finding).append(data::consequence_of(finding)));
@@ -179,12 +180,17 @@ std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::s
     warnings.push_back(fmt::format("one run: parts of it, {} to {}, are each predicted from the others",
                                    data.runs.front().id, data.runs.back().id));
   std::vector<std::string> at_once = warnings;  // the diagnosis says the rest of it again, with what it did
-  for (const data::Finding& finding : looked) {
+  for (data::Finding finding : looked) {
+    if (finding.quantity == "load") {
+      identify::LoadDoubt doubt{{}, data::text_of(data, finding)};
+      for (const std::size_t run : finding.runs) doubt.runs.push_back(data.runs[run].id);
+      prepared.of_loads.push_back(std::move(doubt));
+      finding.message = "the load does not fit the motion; the diagnosis estimates it";
+    }
     at_once.push_back(data::text_of(data, finding));
-    if (finding.quantity == "load") warnings.push_back(at_once.back());
   }
   say(data::grouped(std::move(at_once)));
-  return warnings;
+  return prepared;
 }
 
 Found find(const domain::Dataset& data, const Diagnosing& how, const run::ProgressHook& progress) {
@@ -194,10 +200,11 @@ Found find(const domain::Dataset& data, const Diagnosing& how, const run::Progre
                                     .time_limit_s = how.time_limit_s,
                                     .known = how.known};
   identify::Identified identified = identify::identify(data, settings);
-  Found found{identify::diagnosis_of(identified, settings, {how.seed, how.warnings}),
-              {},
-              {},
-              std::move(identified.simulated)};
+  Found found{
+      identify::diagnosis_of(identified, settings, {how.seed, how.prepared.warnings, how.prepared.of_loads}),
+      {},
+      {},
+      std::move(identified.simulated)};
   found.nominal = run::replay(data, how.threads, progress);
   domain::Dataset mended = data;
   mended.rig = found.diagnosis.corrected;

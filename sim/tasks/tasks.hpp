@@ -9,6 +9,7 @@
 
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/domain/dataset.hpp>
+#include <sim/identify/diagnosis.hpp>
 #include <sim/identify/simulator.hpp>
 #include <sim/run/replay.hpp>
 
@@ -42,18 +43,25 @@ domain::Dataset ticked(domain::Dataset data, const std::function<void(const std:
 
 // A diagnosis.
 
+/// What a diagnosis has to repeat, and what only where it has not estimated the loads.
+struct Prepared {
+  std::vector<std::string> warnings{};
+  std::vector<identify::LoadDoubt> of_loads{};
+};
+
 /// Adds the laws of hypothesis files to the rig, on both sides of a pair, checks that the data can be judged
-/// and makes rows of stamps. `say` hears before anything is fitted what `check` and `replay` say of the data.
-/// Gives what the diagnosis has to repeat. Throws input::BadInput, input::MissingInput, data::UnfitData.
-std::vector<std::string> prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses,
-                                 const std::function<void(const std::vector<std::string>&)>& say);
+/// and makes rows of stamps. `say` hears before anything is fitted what `check` and `replay` say of the data,
+/// of doubtful loads only that they are estimated. Throws input::BadInput, input::MissingInput,
+/// data::UnfitData.
+Prepared prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses,
+                 const std::function<void(const std::vector<std::string>&)>& say);
 
 struct Diagnosing {
   unsigned threads = 0;
   std::uint64_t seed = 1;
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< of the search, which it only stops
-  std::vector<std::string> warnings{};                            ///< that `prepare` gave
-  const identify::Simulated* known = nullptr;                     ///< of a search that was ended
+  Prepared prepared{};
+  const identify::Simulated* known = nullptr;  ///< of a search that was ended
 };
 
 /// What is found, and the runs replayed on the data set's rig and on

@@ -51,6 +51,21 @@ TEST(Plan, ALeverLiftsWhatItsArmLetsItsMuscleLift) {
   EXPECT_EQ(loads_kg, (std::set{6.0, 12.0}));  // 15.6 kg pull like 110 kg at the cord
 }
 
+TEST(Plan, ProposesNothingThatWasMeasured) {
+  domain::Dataset data = planted({}, {85.0}, {three_kinds()[0]}, 1);
+  Rig rougher = data.rig;
+  rougher.friction.scale = 1.2;
+  std::set<std::string> proposed;
+  const auto heavy = [](const domain::Run& run) { return run.load_kg > 60.0 ? 0.6 : 0.0; };
+  while (const auto found = plan(data, 2, data.rig, rougher, {"a", "b"}, heavy)) {
+    ASSERT_TRUE(proposed.insert(found->current).second) << found->current;
+    domain::Run made = planted({}, {0.98 * found->load_kg}, {found->measurement}, 2).runs.front();
+    made.current_mA.insert(made.current_mA.begin(), 40, made.current_mA.front());  // recorded before it began
+    data.runs.push_back(std::move(made));
+  }
+  EXPECT_GE(proposed.size(), 4U);
+}
+
 TEST(Plan, PromisesNothingBelowATenth) {
   EXPECT_FALSE(next([](const domain::Run&) { return 0.09; }));
 }

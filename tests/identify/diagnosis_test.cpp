@@ -280,5 +280,42 @@ TEST(HandedOver, TheBestSoFarOfASearchThatWasEnded) {
   EXPECT_EQ(again.because, later.because);
 }
 
+TEST(HandedOver, DelaysThatNoCurrentSeparatesAndAGaugeThatWould) {
+  plant::Rig late;
+  late.effects.get<plant::CommandDelay>().time_s = 0.04;
+  const Diagnosis found = handed_over(diagnose::small(late));
+  ASSERT_EQ(found.effects.size(), 1U) << found.because;
+  ASSERT_EQ(found.effects[0].confusable_with.size(), 1U);
+  EXPECT_GT(found.effects[0].support.before_rivals, 6.0);  // of those that are not as good
+  EXPECT_FALSE(found.next_experiment);
+  ASSERT_TRUE(found.next_sensor);
+  EXPECT_GT(found.next_sensor->expected_power, 0.9);
+}
+
+TEST(HandedOver, ALoadThatIsFarOffWithAnIntervalThatHoldsIt) {
+  domain::Dataset data = diagnose::small({});
+  data.runs[0].load_kg += 10.0;
+  const Settings settings{.threads = 2};
+  const Diagnosis found =
+      diagnosis_of(identify(data, settings), settings,
+                   {.of_loads = {{{"r01"}, "a guess of this load"}, {{"r02"}, "a doubt of another"}}});
+  ASSERT_EQ(found.bench.size(), 1U) << found.because;
+  EXPECT_EQ(found.bench[0].runs, std::vector<std::string>{"r01"});
+  EXPECT_TRUE(surrounds(found.bench[0].size, -10.0));
+  EXPECT_LT(found.bench[0].size.high - found.bench[0].size.low, 0.1);
+  EXPECT_EQ(std::ranges::count(found.warnings, "a guess of this load"), 0);
+  EXPECT_EQ(std::ranges::count(found.warnings, "a doubt of another"), 1);
+}
+
+TEST(HandedOver, LabelsThatWereExchangedAsSuch) {
+  domain::Dataset data = diagnose::small({});
+  std::swap(data.runs[0].load_kg, data.runs[2].load_kg);
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 2U) << found.because;
+  EXPECT_EQ(found.bench[0].write, "load: 11.138 kg");
+  EXPECT_EQ(found.bench[1].write, "load: 16.138 kg");
+  EXPECT_TRUE(found.bench[0].words.ends_with("as if its label were exchanged with that of run r03"));
+}
+
 }  // namespace
 }  // namespace mckibben::identify

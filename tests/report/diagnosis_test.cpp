@@ -88,6 +88,22 @@ TEST(DiagnosisPage, NamesFaultsOfTheBenchBeforeEffectsAndSaysWhatMendsThem) {
   EXPECT_LT(html.find("2.75 kg less than written", table), html.find("0.619 l/(min bar)", table));
 }
 
+TEST(DiagnosisPage, MarksANameThatAnotherCouldBe) {
+  const std::string html = report_html(measured(), diagnosed(), {}, {});
+  const std::size_t table = html.find("Verdict: missing_effect");
+  EXPECT_NE(html.find("valve_<wbr>dead_<wbr>band *", table), std::string::npos);
+  EXPECT_TRUE(holds(html, "<p>* or valve_hysteresis: these data do not distinguish them.</p>",
+                    "<h3>valve_dead_band or valve_hysteresis</h3>"));
+}
+
+TEST(DiagnosisPage, HasOneNoiseFloor) {
+  diagnose::Diagnosis found = diagnosed();
+  found.gap.jitter = 7.7e-5;  // 0.023 mm
+  const std::string html = report_html(measured(), found, {}, {});
+  EXPECT_TRUE(holds(html, "below the noise floor, here "));
+  EXPECT_TRUE(lacks(html, "0.023 mm"));
+}
+
 TEST(DiagnosisPage, LeavesOutWhatThereIsNot) {
   diagnose::Diagnosis nothing;
   nothing.verdict = diagnose::Verdict::nothing_missing;
@@ -140,6 +156,19 @@ TEST(DiagnosisPage, AsksForNothingMoreOnlyWhereNothingIsLeft) {
   found.effects.back().confusable_with.clear();
   const std::string enough = "No further measurement is needed";
   EXPECT_TRUE(holds(report_html(measured(), found, {}, {}), enough));
+  for (auto& effect : found.effects) effect.support.fall = 50.0;
+  found.ranking.push_back({.name = "bladder_creep", .score = 49.0, .untried = true});
+  EXPECT_TRUE(holds(report_html(measured(), found, {}, {}), enough));
+  found.ranking.back().score = 51.0;
+  EXPECT_TRUE(lacks(report_html(measured(), found, {}, {}), enough));
+  EXPECT_TRUE(holds(report_html(measured(), found, {}, {}), "they might explain as much: bladder_creep."));
+  found.ranking.pop_back();
+  found.explanations = {
+      {.kind = diagnose::Explanation::Kind::effects, .effects = {"a", "b"}, .as_good = true}};
+  EXPECT_TRUE(lacks(report_html(measured(), found, {}, {}), enough));
+  EXPECT_TRUE(
+      holds(report_html(measured(), found, {}, {}), "Not decided: a with b may explain the data as well."));
+  found.explanations.clear();
   found.gap.corrected_rmse = 25.0 * found.gap.noise_floor;
   const std::string html = report_html(measured(), found, {}, {});
   EXPECT_TRUE(lacks(html, enough));
