@@ -112,7 +112,7 @@ std::string twins(const Diagnosis& diagnosis) {
 
 std::string next(const Diagnosis& diagnosis) {
   if (!diagnosis.next_experiment) {
-    const std::string words = what_next(diagnosis);
+    const std::string words = is_unexplained(diagnosis) ? what_next(diagnosis) : left_undecided(diagnosis);
     return words.empty() ? "" : "  " + words + "\n";
   }
   const auto& next = *diagnosis.next_experiment;

@@ -240,47 +240,47 @@ bool is_unexplained(const diagnose::Diagnosis& diagnosis) {
 
 namespace {
 
-/// Of effects that were named: what would choose between them and others.
-std::string what_decides(const diagnose::Diagnosis& diagnosis) {
-  const auto has_others = [](const auto& effect) { return !effect.confusable_with.empty(); };
-  const bool twins = std::ranges::any_of(diagnosis.effects, has_others);
-  if (twins && diagnosis.corrected.pair() != nullptr)
-    return "No measurement of a joint's angle is planned that would distinguish these names.";
-  std::vector<std::string> as_good, untried;
-  for (const auto& one : diagnosis.explanations)
-    if (one.as_good && !one.chosen) as_good.push_back(explained_by(one));
+/// Names that no fit has judged, though by a linear model they might explain as much as those that were
+/// found.
+std::string untried_in_words(const diagnose::Diagnosis& diagnosis) {
+  constexpr std::size_t most = 4;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& effect : diagnosis.effects) least = std::min(least, effect.support.fall);
+  std::vector<std::string> names;
   for (const auto& one : diagnosis.ranking)
-    if (one.untried && one.score >= least) untried.push_back(full_name(one));
-  std::string words;
-  if (diagnosis.next_sensor) {
-    const auto& sensor = *diagnosis.next_sensor;
-    const std::string names = listed(sensor.separates);
-    words = sensor.expected_power < diagnose::thresholds.plan.least_power
-                ? fmt::format("Neither another current nor a pressure gauge on the muscle would separate {}.",
-                              names)
-                : fmt::format(
-                      "No other current would separate {}. A pressure gauge on the muscle would, in "
-                      "a run like {}, with a probability of {:.0f} %.",
-                      names, sensor.run, 100.0 * sensor.expected_power);
-  } else if (twins) {
-    words = "No current that was tried and is not yet in the data would distinguish these names.";
-  } else if (!as_good.empty()) {
-    words = fmt::format("Not decided: {} may explain the data as well.", listed(as_good));
-  }
-  if (!untried.empty()) {
-    constexpr std::size_t most = 4;
-    const std::size_t more = untried.size() - std::min(untried.size(), most);
-    untried.resize(untried.size() - more);
-    if (more > 0) untried.push_back(fmt::format("{} more", more));
-    words += fmt::format("{}Not tried, though by a linear model they might explain as much: {}.",
-                         words.empty() ? "" : " ", listed(untried));
-  }
-  return words.empty() ? "No further measurement is needed to choose between names." : words;
+    if (one.untried && one.score >= least) names.push_back(full_name(one));
+  if (names.empty()) return "";
+  const std::size_t more = names.size() - std::min(names.size(), most);
+  names.resize(names.size() - more);
+  if (more > 0) names.push_back(fmt::format("{} more", more));
+  return fmt::format("Not tried, though by a linear model they might explain as much: {}.", listed(names));
 }
 
 }  // namespace
+
+std::string left_undecided(const diagnose::Diagnosis& diagnosis) {
+  if (diagnosis.verdict != diagnose::Verdict::missing_effect) return "";
+  const bool twins = std::ranges::any_of(diagnosis.effects,
+                                         [](const auto& effect) { return !effect.confusable_with.empty(); });
+  if (twins && diagnosis.corrected.pair() != nullptr)
+    return "No measurement of a joint's angle is planned that would distinguish these names.";
+  if (diagnosis.next_sensor) {
+    const auto& sensor = *diagnosis.next_sensor;
+    const std::string names = listed(sensor.separates);
+    if (sensor.expected_power < diagnose::thresholds.plan.least_power)
+      return fmt::format("Neither another current nor a pressure gauge on the muscle would separate {}.",
+                         names);
+    return fmt::format(
+        "No other current would separate {}. A pressure gauge on the muscle would, in a run like {}, with a "
+        "probability of {:.0f} %.",
+        names, sensor.run, 100.0 * sensor.expected_power);
+  }
+  if (twins) return "No current that was tried and is not yet in the data would distinguish these names.";
+  std::vector<std::string> as_good;
+  for (const auto& one : diagnosis.explanations)
+    if (one.as_good && !one.chosen) as_good.push_back(explained_by(one));
+  return as_good.empty() ? "" : fmt::format("Not decided: {} may explain the data as well.", listed(as_good));
+}
 
 std::string what_next(const diagnose::Diagnosis& diagnosis) {
   using enum diagnose::Verdict;
@@ -293,7 +293,12 @@ std::string what_next(const diagnose::Diagnosis& diagnosis) {
         "one of the runs again: what two equal runs differ by is noise, "
         "what is left beyond it is not in the rig.",
         diagnosis.gap.floors_left());
-  if (diagnosis.verdict == missing_effect) return what_decides(diagnosis);
+  if (diagnosis.verdict == missing_effect) {
+    const std::string undecided = left_undecided(diagnosis), untried = untried_in_words(diagnosis);
+    if (undecided.empty() && untried.empty())
+      return "No further measurement is needed to choose between names.";
+    return undecided + (undecided.empty() || untried.empty() ? "" : " ") + untried;
+  }
   if (diagnosis.verdict == recalibrate)
     return "Check the numbers that moved most against a ruler or the data sheet.";
   if (diagnosis.verdict == unknown_effect && !diagnosis.law_valid_for.empty())

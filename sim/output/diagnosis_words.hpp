@@ -73,6 +73,9 @@ std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis);
 /// Whether more is left than noise and what the verdict is about.
 bool is_unexplained(const diagnose::Diagnosis& diagnosis);
 
+/// What could choose between the names that were found and others that are as good; empty where none is.
+std::string left_undecided(const diagnose::Diagnosis& diagnosis);
+
 /// What to do where no measurement is proposed; empty if there is nothing to say. Nobody is told that no more
 /// is needed while noise floors remain unexplained.
 std::string what_next(const diagnose::Diagnosis& diagnosis);
