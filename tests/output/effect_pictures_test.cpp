@@ -34,7 +34,7 @@ TEST(EffectPictures, EachHasItsLoopsBesideTheNominalOne) {
   EXPECT_EQ(lines(svg, "first"), 3);
   EXPECT_EQ(lines(svg, "second"), 3);
   EXPECT_EQ(lines(svg, "third"), 3);
-  EXPECT_NE(svg.find("saturating: force 40 N, ratio 0.06"), std::string::npos);
+  EXPECT_NE(svg.find("saturating: force 40 N, ratio 0.04"), std::string::npos);
   EXPECT_THROW(effect_svg("residual_law"), std::invalid_argument);
 }
 
