@@ -50,6 +50,27 @@ class Env(unittest.TestCase):
                 info = env.step([1.0])[4]
             self.assertGreater(info["true_contraction_ratio"], 0.05, rig)
 
+    def test_all_rigs_of_one_muscle_have_one_space(self):
+        spaces = [mckibben.Env(rig, duration_s=1.0).observation_space for rig in ("thesis", "festo_dmsp_20", mckibben.env.drawn_rig)]
+        self.assertEqual(spaces[0], spaces[1])
+        self.assertEqual(spaces[0], spaces[2])
+        self.assertNotEqual(spaces[0], mckibben.Env().action_space)
+        with mckibben.Env(duration_s=1.0) as env:
+            self.assertEqual(env.observation_space, spaces[0])
+
+    def test_a_member_of_many_leaves_the_recording_of_one(self):
+        many, one = mckibben.VectorEnv(2, duration_s=1.2), mckibben.Env(duration_s=1.2)
+        many.reset(seed=4)
+        one.reset(seed=5)
+        for _ in range(20):
+            many.step([[0.3], [0.2]])
+            one.step([0.2])
+        member, alone = many.episodes[1].recording(), one.recording()
+        self.assertEqual(member["load"], alone["load"])
+        for key, values in alone["data"].items():
+            numpy.testing.assert_allclose(member["data"][key], values, atol=1e-9)
+        numpy.testing.assert_allclose(many.episodes[1].history["reward"], one.history["reward"], atol=1e-9)
+
     def test_its_history_is_there_to_be_plotted(self):
         env = mckibben.Env(duration_s=0.6)
         env.reset(seed=1)

@@ -76,30 +76,22 @@ class Env(Base):
         self.action_space, self.observation_space = (Box(*ends) for ends in (self.task.acted, self.task.observed))
         self.loads_kg = self.task.loads_kg
         self.episode = self.ride = None
-        self.rows, self.ended = [], False
+        self.ended = False
 
     @property
     def history(self):
         """The episode so far, a numpy array for each key, to be plotted: time_s, target, contraction_ratio as counted,
         command in the rig's unit, held up to this time, reward; a row for each step. Behind Gymnasium's wrappers:
         env.unwrapped.history."""
-        commands = ("command", "opposite_command") if self.task.pair else ("command",)
-        keys = ("time_s", "target", self.task.reads, *commands, "reward")
-        return dict(zip(keys, numpy.array(self.rows, dtype=float).reshape(-1, len(keys)).T))
+        return self.episode.history if self.episode else self.task.history([])
 
     def recording(self, id="episode"):
         """The episode so far as a run of measured data with its rig: mckibben.Dataset({"runs": [env.recording()]}).
-        There a row has the command from its time on; the first one is at rest, a tick before."""
-        if not self.rows:
-            raise RuntimeError("a recording wants one step at least")
-        rows = numpy.array(self.rows, dtype=float)
-        names = self.task.command_names(self.episode.rig.command_unit)
-        data = {"time_s": (numpy.arange(len(rows) + 2) * self.episode.tick_s).round(9),
-                self.task.reads: numpy.concatenate([[self.at_rest] * 2, rows[:, 2]])}
-        for i, (name, rest) in enumerate(zip(names, self.episode.resting())):
-            data[name] = numpy.concatenate([[rest], rows[:, 3 + i], rows[-1:, 3 + i]])
-        load = {} if self.task.pair else {"load": f"{self.episode.load_kg!r} kg"}
-        return {"id": id, "rig": self.episode.rig, **load, **self.episode.columns(), "data": data}
+        There a row has the command from its time on; the first one is at rest, a tick before. Of a member of a VectorEnv:
+        envs.episodes[i].recording(), and .history."""
+        if self.episode is None:
+            raise RuntimeError("reset comes before the first recording")
+        return self.episode.recording(id)
 
     def scenario(self, controllers, **keys):
         """The Scenario of this episode's rig, load, target, duration and jitter for others to control:
@@ -127,10 +119,8 @@ class Env(Base):
         super().reset(seed=None if seed is None else int(seed))  # Gymnasium takes no whole number of NumPy's
         episode = Episode(self.task, self.np_random, options)
         self.ride, self.episode = Ride(episode.rig, load_kg=episode.load_kg), episode
-        self.rows, self.ended = [], False
-        seen = self.episode.begin(self._counted())
-        self.at_rest = self.episode.last
-        return self.task.observation(seen), dict(self.episode.info)
+        self.ended = False
+        return self.task.observation(self.episode.begin(self._counted())), dict(self.episode.info)
 
     def step(self, action):
         """A tick: (observation, reward, terminated, truncated, info). info has commands, time_s, and
@@ -149,7 +139,6 @@ class Env(Base):
         seen, reward, truncated = self.episode.arrive(self._counted())
         self.ended = terminated or truncated
         info.update(self.episode.truth(self.ride), time_s=self.ride.time_s)
-        self.rows.append((self.ride.time_s, self.episode.target[self.episode.tick], self.episode.last, *commands, reward))
         return self.task.observation(seen), reward, terminated, truncated, info
 
     def _counted(self):

@@ -94,11 +94,10 @@ class Task:
         self.target = default if target is None else target
         self.duration_s = number("duration_s", duration_s, 0.0001, 3600.0, " s")
         self.jitter = number("jitter", jitter, 0.0, 1.0)
-        most = max((one.largest_contraction_ratio for one in self.rigs), default=self.MOST)
         self.reads = "angle_rad" if self.pair else "contraction_ratio"
         ends = numpy.ones(2 if self.pair else 1, dtype=numpy.float32)
         self.acted = -ends, ends
-        low, high = [-most, -self.FASTEST, -1.0], [2.0 * most, self.FASTEST, 1.0]
+        low, high = [-self.MOST, -self.FASTEST, -1.0], [2.0 * self.MOST, self.FASTEST, 1.0]  # the same for all rigs
         if self.pair:
             high = [self.MOST_RAD, self.FASTEST_RAD, self.MOST_RAD]
             low = [-end for end in high]
@@ -147,6 +146,11 @@ class Task:
         """What infos call the command of each muscle."""
         name = "current" if unit == "mA" else "command"
         return [f"{name}{muscle}_{unit}" for muscle in (("_1", "_2") if self.pair else ("",))]
+
+    def history(self, rows):
+        """Of these rows of an episode, an array for each key."""
+        keys = ("time_s", "target", self.reads, *("command", "opposite_command")[:2 if self.pair else 1], "reward")
+        return dict(zip(keys, numpy.array(rows, dtype=float).reshape(-1, len(keys)).T))
 
     def scenario(self, rig, loads_kg, target, controllers, **keys):
         keys = {"rig": rig, "duration": f"{self.duration_s!r} s", "controllers": controllers, **keys}
@@ -200,8 +204,27 @@ class Episode:
         return {"columns": {"angle": {"column": "angle_rad", "unit": "count", "factor": 1.0 / per_count}}}
 
     def begin(self, counted):
-        self.last = self.read(counted)
+        self.last = self.at_rest = self.read(counted)
+        self.rows = []
         return self.seen(0.0)
+
+    @property
+    def history(self):
+        """As Env has it."""
+        return self.task.history(self.rows)
+
+    def recording(self, id="episode"):
+        """As Env has it."""
+        if not self.rows:
+            raise RuntimeError("a recording wants one step at least")
+        rows = numpy.array(self.rows, dtype=float)
+        names = self.task.command_names(self.rig.command_unit)
+        data = {"time_s": (numpy.arange(len(rows) + 2) * self.tick_s).round(9),
+                self.task.reads: numpy.concatenate([[self.at_rest] * 2, rows[:, 2]])}
+        for i, (name, rest) in enumerate(zip(names, self.resting())):
+            data[name] = numpy.concatenate([[rest], rows[:, 3 + i], rows[-1:, 3 + i]])
+        load = {} if self.task.pair else {"load": f"{self.load_kg!r} kg"}
+        return {"id": id, "rig": self.rig, **load, **self.columns(), "data": data}
 
     def truth(self, ride):
         """What is read, before it is counted, as info has it."""
@@ -217,14 +240,16 @@ class Episode:
     def commands(self, action):
         """What the DAC gives each muscle for an action."""
         self.action = [min(1.0, max(-1.0, one)) for one in action]
-        return [self.rig.dac_output(zero + 0.5 * (one + 1.0) * (span - zero))
-                for one, (zero, span) in zip(self.action, self.ranges)]
+        self.given = [self.rig.dac_output(zero + 0.5 * (one + 1.0) * (span - zero))
+                      for one, (zero, span) in zip(self.action, self.ranges)]
+        return self.given
 
     def arrive(self, counted):
         """A tick later: what is seen, reward, whether it was the last tick."""
         self.tick += 1
         before, self.last = self.last, self.read(counted)
         reward = -100.0 * abs(self.last - self.wanted[self.tick])
+        self.rows.append((self.tick * self.tick_s, self.wanted[self.tick], self.last, *self.given, reward))
         return self.seen((self.last - before) / self.tick_s), reward, self.over()
 
     def over(self):

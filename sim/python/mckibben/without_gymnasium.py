@@ -25,6 +25,12 @@ class Base:
         if seed is not None:
             self._np_random = numpy.random.default_rng(seed)
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        self.close()
+
 
 class Box:
     """Numbers between `low` and `high`: what there is of Gymnasium's Box here."""
@@ -47,6 +53,10 @@ class Box:
 
     def __contains__(self, x):
         return self.contains(x)
+
+    def __eq__(self, other):
+        return (isinstance(other, Box) and self.dtype == other.dtype and
+                all(numpy.array_equal(*ends) for ends in ((self.low, other.low), (self.high, other.high))))
 
     def __repr__(self):
         low, high = (end.flat[0] if end.size and (end == end.flat[0]).all() else end
