@@ -137,11 +137,12 @@ std::optional<Finding> reversed_flow(const domain::Dataset& data) {
       data.rig.has_angle() || data.judged() == domain::Judged::force)
     return std::nullopt;
   const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(of_gains.flow_s / data.row_s())));
-  double along = 0.0, all = 0.0;
+  double along = 0.0, all = 0.0, pressed = 0.0, all_pressed = 0.0;
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     const domain::Run& run = data.runs[i];
     const std::vector<double>&read = run.judged(), &command = run.current_mA;
+    const std::vector<double>* gauge = run.beside(domain::Beside::muscle_pressure);
     if (command.size() != read.size() || read.size() <= rows) continue;
     runs.push_back(i);
     const auto missing = [&](std::size_t row) { return !run.missing.empty() && run.missing[row]; };
@@ -153,24 +154,37 @@ std::optional<Finding> reversed_flow(const domain::Dataset& data) {
       for (std::size_t row = k; row < k + rows; ++row) fills += 2.0 * valve.way(command[row]) - 1.0;
       along += fills * rise;
       all += std::abs(fills * rise);
+      const double by_gauge = gauge != nullptr ? fills * ((*gauge)[k + rows] - (*gauge)[k]) : 0.0;
+      if (!std::isfinite(by_gauge)) continue;
+      pressed += by_gauge;
+      all_pressed += std::abs(by_gauge);
     }
   }
   if (!(along < -of_gains.opposite_flow * all)) return std::nullopt;
+  const bool flow_is_right = pressed > of_gains.opposite_flow * all_pressed;
   const domain::ColumnMap said = domain::merged(data.columns, data.runs.front().columns);
   const bool of_ticks = !data.own_clock && valve.command_unit == plant::CommandUnit::mA;
-  const std::string key = of_ticks || !said["current"].absent() ? "current" : "command";
+  const std::string key = flow_is_right                           ? "contraction"
+                          : of_ticks || !said["current"].absent() ? "current"
+                                                                  : "command";
   ColumnPlace place = with_our_names(said, valve.command_unit)[key];
   std::string line;
-  if (place.unit == name_of(valve.command_unit)) {
+  if (flow_is_right) {
+    place.factor = -place.factor;
+    if (!said[key].absent()) line = fmt::format("; write columns: {{{}}}", line_of(key, place));
+  } else if (place.unit == name_of(valve.command_unit)) {
     place.zero += (valve.zero_command + valve.span_command) / place.factor;
     place.factor = -place.factor;
     line = fmt::format("; write columns: {{{}}}", line_of(key, place));
   }
-  return Finding{.quantity = key,
-                 .runs = std::move(runs),
-                 .message = fmt::format("{}: where it fills by the rig, the muscle gives way, and where it "
-                                        "vents, it pulls: its sign is the other one{}",
-                                        key, line)};
+  return Finding{
+      .quantity = key,
+      .runs = std::move(runs),
+      .message = fmt::format("{}: {}: its sign is the other one{}", key,
+                             flow_is_right ? "where valves fill, pressure rises and the muscle gives way"
+                                           : "where it fills by the rig, the muscle gives way, and where it "
+                                             "vents, it pulls",
+                             line)};
 }
 
 std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, ColumnPlace place) {

@@ -103,16 +103,19 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
       {10.0, of_loads.near_grams, of_loads.sure_tenth,
        "a tenth of what hung (a digit missing, a point misplaced)"}};
   const double ratio = common_ratio(list);
-  if (ratio <= 0.0) return std::nullopt;
+  const auto seems_none = [](const Weighed& one) { return one.seems_kg <= 0.0; };
+  if (ratio <= 0.0 || std::ranges::any_of(list, seems_none)) return std::nullopt;
   for (const LoadUnit& unit : units) {
     const double off = std::abs(std::log(ratio / unit.ratio));
     if (off > std::log(unit.near)) continue;
     return Finding{
         "load", runs_of(list),
-        fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
-                    "factor; these look like {}, here load: {:.6g} kg",
-                    domain::write_kg(list.front().label_kg), list.front().seems_kg, unit.says,
-                    unit.ratio * list.front().label_kg),
+        fmt::format(
+            "load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
+            "factor; these look like {}, here load: {:.6g} kg; or the rig is another muscle: are base, "
+            "rest_radius and braid_angle right?",
+            domain::write_kg(list.front().label_kg), list.front().seems_kg, unit.says,
+            unit.ratio * list.front().label_kg),
         off < std::log(unit.sure) ? Severity::refused : Severity::doubtful};
   }
   return std::nullopt;

@@ -26,11 +26,16 @@ bool has(const Names& names, const std::string& name) {
 }
 
 /// Whether a model predicts unseen runs as well as the chosen one, and is no less probable, by more than runs
-/// disagree about it (Vuong 1989).
+/// disagree about it (Vuong 1989). How a run came to where it is first seen on its way is a guess, which
+/// favours one as much in every run: strong evidence of each start is none.
 bool rivals_chosen(const Identified& found, std::size_t i) {
   const Judged &chosen = found.table[found.decision.chosen], &other = found.table[i];
   const auto [nats, error] = loss(chosen.held_out, other.held_out);
-  return std::max(nats, chosen.score - other.score) <= std::max(decisive.errors * error, decisive.strong);
+  const Rows& rows = found.study->rows;
+  const double guesses =
+      rows.data().recorded.start == domain::Start::moving ? static_cast<double>(rows.runs.size()) : 1.0;
+  return std::max(nats, chosen.score - other.score) <=
+         std::max(decisive.errors * error, guesses * decisive.strong);
 }
 
 EffectName who(const Dictionary& dictionary, const std::string& name) {

@@ -95,6 +95,21 @@ TEST(Sanity, ADutyWithTheOtherSignIsToldByTheFlow) {
       EXPECT_EQ(one.find("gives way"), std::string::npos) << name;
 }
 
+TEST(Sanity, WhereTheGaugeFollowsTheDutyTheContractionHasTheOtherSign) {
+  plant::Rig rig = switched({});
+  rig.sensors.put(plant::gauge());
+  domain::Dataset data = measured_on(rig, {11.138, 16.138}, rig);
+  EXPECT_EQ(said(data), std::vector<std::string>{});
+  for (domain::Run& run : data.runs)
+    for (double& ratio : run.contraction_ratio) ratio *= -1.0;
+  const auto all = said(data);
+  EXPECT_TRUE(std::ranges::any_of(all, [](const std::string& one) {
+    return one.find("contraction: where valves fill, pressure rises and the muscle gives way") !=
+           std::string::npos;
+  })) << (all.empty() ? "nothing" : all.front());
+  for (const std::string& one : all) EXPECT_EQ(one.find("current: where it fills"), std::string::npos);
+}
+
 TEST(Sanity, SoundDataOfOtherRigsAreLeftAlone) {
   std::vector<plant::NamedRig> rigs = plant::rigs_with_one_effect();
   for (const double strength : {2.0 / 3.0, 4.0 / 3.0}) {
