@@ -59,6 +59,9 @@ def main():
             assert ("/usr/bin/python3 --help" in said) == (verb == "python"), said
         assert run("run", "--help").startswith("built in")
         assert run().startswith(f"built in {home}/.cache/mckibben/"), run()
+        write(os.path.join(root, "bin/cmake"), "#!/bin/sh\nexit 1\n", 0o755)
+        assert run().startswith("built in")  # nothing to build, nothing asked of cmake
+        write(os.path.join(root, "bin/cmake"), CMAKE, 0o755)
         assert run(XDG_CACHE_HOME=home + "/other").startswith(f"built in {home}/other/mckibben/")
         os.chmod(checkout, 0o755)
         write(os.path.join(checkout, "build/release/mckibben"), "#!/bin/sh\necho as built\n", 0o755)
