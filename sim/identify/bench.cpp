@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -17,6 +16,7 @@
 #include <sim/domain/fill_in.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/identify/bench.hpp>
+#include <sim/identify/each_run.hpp>
 
 namespace mckibben::identify {
 
@@ -27,12 +27,6 @@ namespace {
 constexpr double of_95 = diagnose::thresholds.tell.normal;
 constexpr double stands_out = 3.0;  // deviations of a run's own value: it is reported,
 constexpr double matters = 0.1;     // and of the largest of all
-
-double middle_of(std::vector<double> list) {
-  std::ranges::sort(list);
-  const std::size_t half = list.size() / 2;
-  return list.size() % 2 == 1 ? list[half] : 0.5 * (list[half - 1] + list[half]);
-}
 
 /// In so many digits that the last is smaller than the deviation.
 double rounded(double value, double deviation) {
@@ -46,75 +40,6 @@ std::string number_of(double value, double deviation) {
 
 std::string more_or_less(double value, const char* more = "more", const char* less = "less") {
   return value < 0.0 ? less : more;
-}
-
-/// Values of one kind of fault in the runs of a model, and their covariance.
-struct EachRun {
-  std::vector<double> values{};
-  Eigen::MatrixXd covariance{};
-
-  double deviation(const Eigen::VectorXd& of) const { return std::sqrt(of.dot(covariance * of)); }
-  std::vector<double> deviations() const {
-    const Eigen::VectorXd list = covariance.diagonal().cwiseSqrt();
-    return {list.begin(), list.end()};
-  }
-};
-
-/// What runs have in common of one kind of fault, which the rig's parameters can imitate: the median, or one
-/// in proportion to something.
-struct Common {
-  Eigen::VectorXd sizes;    ///< to what it is in proportion, of each run
-  Eigen::VectorXd weights;  ///< of the runs' values in it, a unit of that
-  double value = 0.0;
-
-  Common(const std::vector<double>& values, Eigen::VectorXd of) : sizes(std::move(of)) {
-    const auto share = [&](std::size_t i) { return values[i] / sizes[static_cast<Eigen::Index>(i)]; };
-    std::vector<std::size_t> order(values.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::sort(order, {}, share);
-    weights = Eigen::VectorXd::Zero(sizes.size());
-    const std::size_t half = order.size() / 2;
-    for (const std::size_t at : {half, order.size() - half - 1}) {
-      weights[static_cast<Eigen::Index>(order[at])] += 0.5 / sizes[static_cast<Eigen::Index>(order[at])];
-      value += 0.5 * share(order[at]);
-    }
-  }
-  /// Of one run what is its own, as a sum of all values.
-  Eigen::VectorXd own(Eigen::Index run) const {
-    return Eigen::VectorXd::Unit(sizes.size(), run) - sizes[run] * weights;
-  }
-  std::vector<double> owns(const std::vector<double>& values) const {
-    std::vector<double> list = values;
-    for (std::size_t i = 0; i < list.size(); ++i) list[i] -= sizes[static_cast<Eigen::Index>(i)] * value;
-    return list;
-  }
-  /// How far the values are from it, most of them.
-  double spread(const std::vector<double>& values) const {
-    std::vector<double> list = owns(values);
-    for (double& one : list) one = std::abs(one);
-    return middle_of(std::move(list));
-  }
-};
-std::vector<double> values_of(const Model& model, std::size_t place) {
-  std::vector<double> list;
-  for (const Eigen::VectorXd& mean : model.grams.means)
-    list.push_back(mean[static_cast<Eigen::Index>(place)]);
-  return list;
-}
-EachRun each_run(const Model& model, std::size_t place) {
-  EachRun list{.values = values_of(model, place)};
-  const auto i = static_cast<Eigen::Index>(place);
-  const Eigen::Index runs = std::ssize(list.values), k = model.slopes.cols();
-  // How the values change with the model's parameters, which are not known either.
-  Eigen::MatrixXd change(runs, k);
-  for (Eigen::Index j = 0; j < k; ++j) {
-    const Grams by = model.error.grams(model.slopes.col(j), Eigen::MatrixXd(model.slopes.rows(), 0));
-    for (Eigen::Index run = 0; run < runs; ++run) change(run, j) = by.means[static_cast<std::size_t>(run)][i];
-  }
-  list.covariance = change * model.covariance * change.transpose();
-  for (Eigen::Index run = 0; run < runs; ++run)
-    list.covariance(run, run) += std::pow(model.grams.deviations[static_cast<std::size_t>(run)][i], 2);
-  return list;
 }
 
 class FaultReport {
@@ -198,7 +123,8 @@ class FaultReport {
     return factor.spread(values) < offset.spread(values) ? factor : offset;
   }
 
-  /// What all runs have in common is not determined, but for their clocks: each is reported less that.
+  /// What all runs have in common is not determined, but for their clocks: each is reported less that; or
+  /// that, where no run is off by itself.
   void differing_runs(std::size_t place) {
     const int which = model_.point.differ[place];
     const EachRun of = each_run(model_, place);
@@ -208,8 +134,13 @@ class FaultReport {
     if (!of_time) {
       const Common common = common_of(which, of.values);
       values = common.owns(of.values);
-      for (std::size_t i = 0; i < values.size(); ++i)
+      bool none = true;
+      for (std::size_t i = 0; i < values.size(); ++i) {
         deviations[i] = of.deviation(common.own(static_cast<Eigen::Index>(i)));
+        none = none && std::abs(values[i]) <= stands_out * deviations[i];
+      }
+      if (which == loads && none && std::abs(common.value) > stands_out * of.deviation(common.weights))
+        return report_common_loads(common, of);
     }
     const auto by = [&](std::size_t i) { return std::abs(values[i]); };
     std::size_t furthest = 0;
@@ -271,6 +202,32 @@ class FaultReport {
           fmt::format("{} drift by {} {} a second", readings, rate, more_or_less(value, "up", "down"));
       fault.write = "take the drift out of the column, or measure again";
     }
+  }
+
+  void report_common_loads(const Common& common, const EachRun& of) {
+    BenchFault fault;
+    Bench bench = model_.problem->dictionary.setting(model_.point).bench;
+    bench.of_runs[loads].clear();
+    double most_kg = 0.0;
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < rows_.runs.size(); ++i) {
+      const double size = common.sizes[static_cast<Eigen::Index>(i)], off_kg = size * common.value;
+      const double deviation_kg = of.deviation(size * common.weights);
+      if (std::abs(off_kg) > most_kg) {
+        most_kg = std::abs(off_kg);
+        fault = fault_of(loads, off_kg, deviation_kg);
+        fault.words = fmt::format(
+            "the loads of all runs are {} than written, that of run {} by {} kg; so would another muscle "
+            "move "
+            "them, of another radius",
+            more_or_less(off_kg), run(i).id, number_of(most_kg, deviation_kg));
+      }
+      lines.push_back(fmt::format("{}: load: {} kg", run(i).id,
+                                  number_of(bench.load_kg(run(i).load_kg, i) + off_kg, deviation_kg)));
+    }
+    for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
+    fault.write = fmt::format("{}", fmt::join(lines, "; "));
+    list_.push_back(std::move(fault));
   }
 
   void report_common(int which, const EachRun& of) {

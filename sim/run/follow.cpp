@@ -118,8 +118,7 @@ void Following::end(const engine::Counters& solver, const engine::NumericalFailu
     if (exact || !given)
       recording_.imbalance =
           rider.plant().imbalance(first.state, last.state, last.ledger, first.cords(), last.memory);
-    if (solver.stiff_from_tick >= 0)
-      recording_.solver.stiff_from_tick -= ticks_before();
+    if (solver.stiff_from_tick >= 0) recording_.solver.stiff_from_tick -= ticks_before();
     note_slack(recording_, rig());
   }
   done_(std::move(recording_));

@@ -1,10 +1,10 @@
 // Rigs that follow what drives them from stamp to stamp, whatever it is and however unequal the stamps:
 // commands, given pressures, a given length or force; one muscle or two; ticks as well.
 //
-//   settle: the first drive is held for the settling time, in steps of a tick; a rig that is on its way runs
-//   in instead: pressures come to what they are under a moving command, then the load is put where it was seen
+//   settle: the first drive is held for the settling time, in steps of a tick; or a rig that is on its way
+//           runs in under a moving command, and the load is put where it was seen
 //   row k = (t_k, x-); then a command is held until t_(k+1), a given pressure or length runs straight to its
-//   next
+//           next
 #pragma once
 
 #include <functional>

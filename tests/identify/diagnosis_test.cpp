@@ -171,6 +171,20 @@ TEST(HandedOver, WhichRunHasAnotherLoadAndWhichItIs) {
   EXPECT_TRUE(holds(found.because, "kg less than written (in the data set: load: 16.1", "Apart from that"));
 }
 
+// They had come to their loads each by itself, as far as only one deviated from all others by 0.7 g.
+TEST(HandedOver, LoadsThatAreAllInPoundsAreOffInEveryRun) {
+  domain::Dataset data = diagnose::small({});
+  const double was_kg = data.runs[0].load_kg;
+  for (domain::Run& run : data.runs) run.load_kg *= domain::pound_kg;
+  const Diagnosis found = handed_over(data);
+  ASSERT_FALSE(found.bench.empty()) << found.because;
+  const diagnose::BenchFault& loads = found.bench[0];
+  EXPECT_EQ(loads.runs.size(), data.runs.size()) << found.because;
+  const std::size_t at = loads.write.find("load: ");
+  ASSERT_NE(at, std::string::npos) << loads.write;
+  EXPECT_NEAR(std::stod(loads.write.substr(at + 6)), was_kg, 0.05 * was_kg) << loads.write;
+}
+
 TEST(HandedOver, ParametersThatMovedInTheUnitsOfTheRig) {
   plant::Rig truth;
   truth.friction.scale = 1.25;
