@@ -4,7 +4,8 @@
 #   MCKIBBEN_ROOT: the folder that holds plant/ and sim/
 # SUNDIALS, libstdc++ and libgcc are linked statically; of Eigen and fmt the headers are enough.
 file(GLOB fmu_sources CONFIGURE_DEPENDS ${MCKIBBEN_ROOT}/plant/*.cpp ${MCKIBBEN_ROOT}/sim/engine/*.cpp
-  ${MCKIBBEN_ROOT}/sim/ride/*.cpp ${MCKIBBEN_ROOT}/sim/fmu/model/*.cpp ${MCKIBBEN_ROOT}/sim/domain/rig_number.cpp)
+  ${MCKIBBEN_ROOT}/sim/ride/*.cpp ${MCKIBBEN_ROOT}/sim/fmu/model/*.cpp ${MCKIBBEN_ROOT}/sim/domain/rig_number.cpp
+  ${MCKIBBEN_ROOT}/sim/domain/number.cpp)
 foreach(library arkode cvode generic)
   find_library(SUNDIALS_${library}_STATIC libsundials_${library}.a REQUIRED)
   list(APPEND fmu_static ${SUNDIALS_${library}_STATIC})

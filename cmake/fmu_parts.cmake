@@ -6,7 +6,7 @@ foreach(folder plant sim/engine sim/ride sim/fmu/model)
   get_filename_component(parent ${folder} DIRECTORY)
   file(COPY ${ROOT}/${folder} DESTINATION ${STAGE}/sources/${parent})
 endforeach()
-file(COPY ${ROOT}/sim/domain/rig_number.cpp ${ROOT}/sim/domain/rig_number.hpp ${ROOT}/sim/domain/number.hpp
+file(COPY ${ROOT}/sim/domain/rig_number.cpp ${ROOT}/sim/domain/rig_number.hpp ${ROOT}/sim/domain/number.cpp ${ROOT}/sim/domain/number.hpp
      ${ROOT}/sim/domain/renamed.hpp
   DESTINATION ${STAGE}/sources/sim/domain)
 file(COPY ${ROOT}/cmake/fmu.cmake ${ROOT}/LICENSE DESTINATION ${STAGE}/sources)
