@@ -216,7 +216,7 @@ bool same_labels(const std::vector<Weighed>& a, const std::vector<Weighed>& b) {
 
 /// What runs seem to weigh as a line over their labels, by their relative errors: an effect or another muscle
 /// adds a factor and an offset. A factor alone where all labels are the same.
-struct Line {
+struct LoadLine {
   double factor = 1.0, offset_kg = 0.0;
 
   double load_kg(double seems_kg) const { return (seems_kg - offset_kg) / factor; }
@@ -228,7 +228,7 @@ struct Line {
   }
 };
 
-Line line_through(const std::vector<Weighed>& list) {
+LoadLine line_through(const std::vector<Weighed>& list) {
   constexpr double same = 1e-6;
   double sum = 0.0, of_label = 0.0, of_seems = 0.0, of_squares = 0.0, of_products = 0.0;
   for (const Weighed& one : list) {
@@ -249,7 +249,7 @@ Line line_through(const std::vector<Weighed>& list) {
 /// in common, and by the line through them.
 bool contradicts(const Weighed& one, const std::vector<Weighed>& others, double scale) {
   if (others.size() < of_loads.least_others) return false;
-  const Line line = line_through(others);
+  const LoadLine line = line_through(others);
   if (!(line.factor > 0.0)) return false;
   // Below the lightest one: near the end of the stroke a small error of the contraction looks like many kg.
   const double lightest_kg = std::ranges::min(others, {}, &Weighed::label_kg).label_kg;
@@ -264,7 +264,7 @@ bool contradicts(const Weighed& one, const std::vector<Weighed>& others, double 
   const double least = std::max(std::log(of_loads.contradicts), of_loads.apart_of_line * left);
   const double a_kg = one.seems_kg / scale, b_kg = line.load_kg(one.seems_kg);
   const auto off = [&](double kg, double way) {
-    return way * (kg - one.label_kg) > least_kg && way * Line::log_ratio(kg, one.label_kg) > least;
+    return way * (kg - one.label_kg) > least_kg && way * LoadLine::log_ratio(kg, one.label_kg) > least;
   };
   return (off(a_kg, 1.0) && off(b_kg, 1.0)) || (off(a_kg, -1.0) && off(b_kg, -1.0));
 }
@@ -287,7 +287,7 @@ std::optional<Alone> alone(const std::vector<Weighed>& list, bool exchangeable) 
     if (list[i].seems_kg <= 0.0 || !(left < std::log(of_loads.others_agree)) ||
         !same_labels(in_order(others), others))
       continue;
-    const Line line = others.size() < of_loads.least_others ? Line{fit.scale} : line_through(others);
+    const LoadLine line = others.size() < of_loads.least_others ? LoadLine{fit.scale} : line_through(others);
     const bool far = others.size() > 1 && off >= of_loads.apart * left &&
                      std::min(off, std::abs(line.off(list[i]))) >= std::log(of_loads.alone);
     if (!exchangeable && !far && !contradicts(list[i], others, fit.scale)) continue;
@@ -352,7 +352,7 @@ std::optional<Finding> wrong_labels(const domain::Dataset& data, const std::vect
 /// Runs without a load that move as if one hung there.
 std::optional<Finding> unloaded(const domain::Dataset& data, const std::vector<Weighed>& list,
                                 const std::vector<Weighed>& others) {
-  const Line line = others.empty() ? Line{} : line_through(others);
+  const LoadLine line = others.empty() ? LoadLine{} : line_through(others);
   const double least_kg = of_loads.visible * domain::usual_load_kg(data.rig);
   Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
   std::string seems;

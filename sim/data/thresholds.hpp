@@ -8,8 +8,6 @@
 
 namespace mckibben::data {
 
-/// kg, by definition.
-
 /// How much is simulated for a look.
 struct LookThresholds {
   std::size_t most_rows = 200'000;  ///< a few seconds' work: the thesis's campaign

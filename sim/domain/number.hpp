@@ -8,7 +8,7 @@ namespace mckibben::domain {
 /// Shortest digits that read back exactly.
 std::string write_number(double value);
 
-inline constexpr double pound_kg = 0.45359237;
+inline constexpr double pound_kg = 0.45359237;  ///< by definition
 
 /// A mass as it was written, less what a conversion of its unit rounded.
 std::string write_kg(double kg);

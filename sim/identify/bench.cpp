@@ -12,6 +12,7 @@
 #include <sim/data/amount.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
+#include <sim/data/series.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/fill_in.hpp>
 #include <sim/domain/number.hpp>
@@ -164,12 +165,12 @@ class FaultReport {
   }
 
   static bool same_in_all(const EachRun& of) {
-    const double middle = middle_of(of.values);
+    const double middle = data::median(of.values);
     const std::vector<double> deviations = of.deviations();
     for (std::size_t i = 0; i < of.values.size(); ++i)
       if (std::abs(of.values[i] - middle) > std::max(stands_out * deviations[i], matters * std::abs(middle)))
         return false;
-    return std::abs(middle) > stands_out * middle_of(deviations);
+    return std::abs(middle) > stands_out * data::median(deviations);
   }
 
   BenchFault fault_of(int which, double value, double deviation) const {
@@ -231,8 +232,8 @@ class FaultReport {
   }
 
   void report_common(int which, const EachRun& of) {
-    const double deviation = middle_of(of.deviations());
-    BenchFault fault = fault_of(which, middle_of(of.values), deviation);
+    const double deviation = data::median(of.deviations());
+    BenchFault fault = fault_of(which, data::median(of.values), deviation);
     for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
     tell_of_time(fault, run(0), which, "the readings of every run", deviation);
     list_.push_back(std::move(fault));

@@ -134,6 +134,12 @@ bool Point::has(std::size_t entry) const {
 bool Point::lets_differ(int which) const {
   return std::ranges::find(differ, which) != differ.end();
 }
+Point Point::with(Added added) const {
+  Point more = *this;
+  more.effects.push_back(std::move(added));
+  std::ranges::sort(more.effects, {}, &Added::entry);
+  return more;
+}
 Point Point::without(std::size_t place) const {
   Point fewer = *this;
   fewer.effects.erase(fewer.effects.begin() + static_cast<std::ptrdiff_t>(place));

@@ -130,7 +130,8 @@ struct Point {
   bool has_lines() const { return terms != Terms::none && members.empty(); }
   bool has(std::size_t entry) const;
   bool lets_differ(int which) const;
-  /// The same without the effect at a place among its own.
+  /// The same with one more, and without the one at a place among its own.
+  Point with(Added added) const;
   Point without(std::size_t place) const;
   /// The same with one of `differing` no longer from run to run.
   Point alike_in(int which) const;

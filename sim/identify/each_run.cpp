@@ -4,15 +4,10 @@
 #include <numeric>
 #include <utility>
 
+#include <sim/data/series.hpp>
 #include <sim/identify/each_run.hpp>
 
 namespace mckibben::identify {
-
-double middle_of(std::vector<double> list) {
-  std::ranges::sort(list);
-  const std::size_t half = list.size() / 2;
-  return list.size() % 2 == 1 ? list[half] : 0.5 * (list[half - 1] + list[half]);
-}
 
 double EachRun::deviation(const Eigen::VectorXd& of) const {
   return std::sqrt(of.dot(covariance * of));
@@ -48,7 +43,7 @@ std::vector<double> Common::owns(const std::vector<double>& values) const {
 double Common::spread(const std::vector<double>& values) const {
   std::vector<double> list = owns(values);
   for (double& one : list) one = std::abs(one);
-  return middle_of(std::move(list));
+  return data::median(std::move(list));
 }
 
 std::vector<double> values_of(const Model& model, std::size_t place) {

@@ -10,8 +10,6 @@
 
 namespace mckibben::identify {
 
-double middle_of(std::vector<double> list);
-
 /// Values of one kind of fault in the runs of a model, and their covariance.
 struct EachRun {
   std::vector<double> values{};

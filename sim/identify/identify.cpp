@@ -127,10 +127,8 @@ void Search::try_other_laws() {
           other.effect->variant == law->variant)
         continue;
       for (const auto& shapes : other.begin) {
-        Point point = found.without(i);
+        Point point = found.without(i).with(dictionary_.clipped({k, 1.0, shapes}));
         point.z.setZero();
-        point.effects.push_back(dictionary_.clipped({k, 1.0, shapes}));
-        std::ranges::sort(point.effects, {}, &Added::entry);
         Model m = refined(std::move(point));
         if (m.score > here_->score) here_ = std::move(m);
       }
@@ -154,10 +152,7 @@ void Search::try_simpler_laws() {
         for (std::size_t j = 0; j < law.shapes.size(); ++j)
           if (law.shapes[j].path == other.shapes[s].path)
             simpler.shapes[s] = other.shapes[s].z(law.shapes[j].value(found.effects[i].shapes[j]));
-      Point point = found.without(i);
-      point.effects.push_back(dictionary_.clipped(std::move(simpler)));
-      std::ranges::sort(point.effects, {}, &Added::entry);
-      Model m = refined(std::move(point));
+      Model m = refined(found.without(i).with(dictionary_.clipped(std::move(simpler))));
       if (m.score > here_->score) here_ = std::move(m);
     }
   }

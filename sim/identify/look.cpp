@@ -59,9 +59,7 @@ std::vector<Start> Search::alike_to(const Model& base, const Part& part, const E
     if (!are_alike(along, gram(0, 0), square, least) || part.rest.has(probe.entry)) continue;
     const Added added = dictionary_.clipped({probe.entry, along / square, probe.shapes});
     if (!(along * added.size > 0.0)) continue;  // the other way, which it cannot be
-    Start start{log_t(added.size) - part.log_prior, part.rest};
-    start.point.effects.push_back(added);
-    std::ranges::sort(start.point.effects, {}, &Added::entry);
+    Start start{log_t(added.size) - part.log_prior, part.rest.with(added)};
     start.value += log_prior_of_set(dictionary_.names(start.point).size(), dictionary_.all_names) -
                    log_prior_of_set(dictionary_.names(base.point).size(), dictionary_.all_names);
     if (!(start.value > -worth)) continue;
@@ -332,9 +330,7 @@ std::vector<Start> Search::of_other_sides(const Model& base, const Part& part) c
     if (!other || other->effect != of->effect || other->variant != of->variant || other->side == of->side)
       continue;
     const double share = of->side == Side::both ? 2.0 : other->side == Side::both ? 0.5 : 1.0;
-    Start start{0.0, part.rest};
-    start.point.effects.push_back(dictionary_.clipped({k, share * added.size, added.shapes}));
-    std::ranges::sort(start.point.effects, {}, &Added::entry);
+    Start start{0.0, part.rest.with(dictionary_.clipped({k, share * added.size, added.shapes}))};
     const Eigen::VectorXd read = problem_.simulator.read(dictionary_.setting(start.point));
     if (!read.allFinite()) continue;
     const Eigen::MatrixXd change = read - (base.read - part.change);

@@ -83,11 +83,14 @@ double power(const Model& model, const Foreseen& by, const Eigen::VectorXd& trut
   return growth > 0.0 ? 0.5 * std::erfc((decisive.strong - 0.5 * growth) / std::sqrt(2.0 * growth)) : 0.0;
 }
 
+plant::Rig rig_of(const Model& model) {
+  return model.problem->dictionary.setting(model.point).rig;
+}
+
 }  // namespace
 
 std::optional<diagnose::NextExperiment> next_measurement(const Model& one, const Model& other,
                                                          std::vector<std::string> names, unsigned threads) {
-  const auto rig_of = [](const Model& model) { return model.problem->dictionary.setting(model.point).rig; };
   return diagnose::plan(one.problem->rows.data(), threads, rig_of(one), rig_of(other), std::move(names),
                         [&](const domain::Run& run) {
                           const Foreseen by_one = foreseen(one, run), by_other = foreseen(other, run);
@@ -102,7 +105,6 @@ std::optional<diagnose::NextSensor> next_sensor(const Model& one, const Model& o
   if (data.pressure_is_given() || data.rig.pair() != nullptr ||
       std::ranges::any_of(data.runs, [](const auto& run) { return run.muscle_pressure_Pa.has_value(); }))
     return std::nullopt;
-  const auto rig_of = [](const Model& model) { return model.problem->dictionary.setting(model.point).rig; };
   const plant::Rig rigs[] = {rig_of(one), rig_of(other)};
   const std::vector<std::size_t>& runs = one.problem->rows.runs;
   std::vector<double> apart(runs.size(), 0.0);

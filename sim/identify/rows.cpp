@@ -4,6 +4,7 @@
 #include <iterator>
 #include <numeric>
 
+#include <sim/data/series.hpp>
 #include <sim/diagnose/noise.hpp>
 #include <sim/identify/rows.hpp>
 
@@ -35,13 +36,6 @@ double grid_of(const std::vector<double>& readings) {
     step = along / square;
   }
   return furthest < 0.02 * step ? step : 0.0;
-}
-
-double median(std::vector<double> list) {
-  if (list.empty()) return 0.0;
-  std::ranges::sort(list);
-  const std::size_t half = list.size() / 2;
-  return list.size() % 2 == 1 ? list[half] : 0.5 * (list[half - 1] + list[half]);
 }
 
 }  // namespace
@@ -90,7 +84,7 @@ void Rows::find_counts() {
       continue;  // even steps of what was set make even readings
     if (const double step = grid_of(one.judged()); step > 0.0) steps.push_back(step);
   }
-  const double grid = 2 * steps.size() > runs.size() ? median(std::move(steps)) : 0.0;
+  const double grid = 2 * steps.size() > runs.size() ? data::median(std::move(steps)) : 0.0;
   // Readings that were written more coarsely than they were counted.
   if (grid > 1.1 * sensor_count && grid > noise.front()) count = grid;
   unit = count > 0.0 ? count : noise.front();

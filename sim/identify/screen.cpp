@@ -98,10 +98,8 @@ Eigen::MatrixXd columns_of(const Model& model, std::vector<Probe>& list) {
     }
     settings.assign(1, dictionary.setting(model.point));
     while (last < list.size() && list[last].entry == list[first].entry) {
-      Point q = model.point;
-      q.effects.push_back({list[last].entry, list[last].size, list[last].shapes});
-      std::ranges::sort(q.effects, {}, &Added::entry);
-      settings.push_back(dictionary.setting(q));
+      settings.push_back(
+          dictionary.setting(model.point.with({list[last].entry, list[last].size, list[last].shapes})));
       ++last;
     }
     const Eigen::MatrixXd changes = model.problem->simulator.differences(settings, coarse);
@@ -352,9 +350,8 @@ std::vector<Start> sets(const Problem& problem, const Error& error, const Point&
       const Probe& probe = list[static_cast<std::size_t>(free[static_cast<std::size_t>(found.columns[i])])];
       const double size = found.sizes[static_cast<Index>(i)];
       const bool may_be = dictionary.entries[probe.entry].either_sign || size > 0.0;
-      q.effects.push_back(dictionary.clipped({probe.entry, may_be ? size : 0.1, probe.shapes}));
+      q = q.with(dictionary.clipped({probe.entry, may_be ? size : 0.1, probe.shapes}));
     }
-    std::ranges::sort(q.effects, {}, &Added::entry);
     starts.push_back({found.value + offset, std::move(q)});
   }
   return starts;

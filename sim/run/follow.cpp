@@ -58,9 +58,8 @@ ride::Drive Follower::disturbed(ride::Drive drive, std::size_t rider, double fro
 }
 
 bool Follower::go_on() {
-  if (has_settled_ && k_ == 0) settled_a_tick();
+  if (k_ == 0 && settling_ < ticks_before()) settled_a_tick();
   if (settling_ > 0) {
-    has_settled_ = true;
     const double until_s = before_s(settling_ - 1);
     for (std::size_t i = 0; i < riders_.size(); ++i)
       riders_[i].hold(disturbed(settling(i), i, never_s, never_s), until_s);

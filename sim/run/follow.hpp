@@ -69,7 +69,6 @@ class Follower : public ride::BatchItem {
   Disturbance disturbance_;
   std::vector<ride::Rider> riders_;
   long settling_ = 0;  // ticks that are left
-  bool has_settled_ = false;
   std::size_t k_ = 0, row_ = 0;
 };
 
