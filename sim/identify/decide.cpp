@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include <sim/diagnose/thresholds.hpp>
 #include <sim/identify/decide.hpp>
 #include <sim/identify/decisive.hpp>
 
@@ -44,6 +45,13 @@ int size_of(const Judged& model) {
   return static_cast<int>(model.names.size()) - (model.described ? 1 : 0);
 }
 
+/// Of another model, by strong evidence.
+bool closes_the_gap_of(const Judged& model, const Judged& other) {
+  return model.score > other.score + decisive.strong &&
+         model.above_noise <= (1.0 - diagnose::thresholds.tell.closed) * other.above_noise &&
+         other.above_noise > 0.0;
+}
+
 }  // namespace
 
 Decision decide(const std::vector<Judged>& table) {
@@ -80,6 +88,8 @@ Decision decide(const std::vector<Judged>& table) {
     const auto [nats, error] = loss(table[reference].held_out, table[i].held_out);
     if (!std::isfinite(table[i].score) || !(nats <= decisive.errors * error) || !allowed(table[i])) continue;
     if (table[i].general) continue;  // many terms are not simple
+    // A wide model error makes all predictions alike: what leaves the gap is no simpler way to close it.
+    if (closes_the_gap_of(table[reference], table[i])) continue;
     const Judged& chosen = table[decision.chosen];
     if (!allowed(chosen) || chosen.general || size_of(table[i]) < size_of(chosen) ||
         (size_of(table[i]) == size_of(chosen) && table[i].score > chosen.score))

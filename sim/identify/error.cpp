@@ -363,9 +363,17 @@ std::pair<Error, double> Error::fitted(const Eigen::VectorXd& residual, const Ei
 
 Error Error::fitted_anew(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
                          const Eigen::VectorXd& variance) const {
-  auto [one, value_of_one] = fitted(residual, columns, variance, {0.5});
-  auto [other, value_of_other] = begun().fitted(residual, columns, variance, {1.0, 0.5});
-  return value_of_one >= value_of_other ? std::move(one) : std::move(other);
+  auto best = fitted(residual, columns, variance, {0.5});
+  const auto from = [&](const Error& start) {
+    auto other = start.fitted(residual, columns, variance, {1.0, 0.5});
+    if (other.second > best.second) best = std::move(other);
+  };
+  from(begun());
+  Error white = best.first;
+  white.logs_[0] = std::log(std::hypot(std::exp(white.logs_[0]), std::exp(white.logs_[model_sd])));
+  white.logs_[model_sd] = white.logs_[0] - std::log(10.0);
+  from(white);
+  return best.first;
 }
 
 }  // namespace mckibben::identify

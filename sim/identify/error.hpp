@@ -55,7 +55,7 @@ class Error {
                                   const Eigen::VectorXd& variance, std::vector<double> steps,
                                   std::vector<std::size_t> only = {}) const;
 
-  /// The same from here and from the numbers that it began with: there are several optima.
+  /// The same from here, from the numbers that it began with, and from all white: there are several optima.
   Error fitted_anew(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
                     const Eigen::VectorXd& variance) const;
 

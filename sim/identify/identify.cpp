@@ -304,6 +304,7 @@ Identified Search::found() && {
   for (const auto& [key, m] : table_)
     if (counts(m) && !is_general(m) && (named == nullptr || m.score > named->score)) named = &m;
   const double most = named != nullptr ? missed(*named) : std::numeric_limits<double>::infinity();
+  const double noise = std::max(rows_.noise.front(), rows_.count / std::sqrt(12.0));
   for (auto& [key, m] : table_) {
     if (!counts(m) || (is_general(m) && missed(m) > most)) continue;
     result.table.push_back({.names = key.second,
@@ -311,6 +312,7 @@ Identified Search::found() && {
                             .general = is_general(m),
                             .score = m.score,
                             .held_out = held_out(m, groups),
+                            .above_noise = std::max(0.0, std::pow(missed(m), 2) - noise * noise),
                             .off_sheet = m.off_sheet()});
     result.models.push_back(std::move(m));
   }

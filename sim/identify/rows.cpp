@@ -95,12 +95,15 @@ void Rows::find_counts() {
 void Rows::find_what_stays() {
   stays = Eigen::VectorXd::Zero(size());
   if (!(count > 0.0)) return;
-  constexpr Eigen::Index far = 25;  // rows, over which the speed is taken
+  // The speed is taken over 25 rows either way, or over all of a rest: it is one reading, however long.
+  constexpr Eigen::Index far = 25;
   for (const Block& block : blocks) {
     if (!is_judged(block)) continue;
     const auto y = read.segment(block.begin, block.rows) / count;
     for (Eigen::Index i = 0; i < block.rows; ++i) {
-      const Eigen::Index up = std::min(i + far, block.rows - 1), low = std::max<Eigen::Index>(i - far, 0);
+      Eigen::Index up = i, low = i;
+      while (up < block.rows - 1 && (up < i + far || std::abs(y[up + 1] - y[i]) < 1.5)) ++up;
+      while (low > 0 && (low > i - far || std::abs(y[low - 1] - y[i]) < 1.5)) --low;
       const double s =
           std::max(std::abs(y[up] - y[low]), 0.5) / static_cast<double>(std::max<Eigen::Index>(up - low, 1));
       if (s < 0.2113) stays[block.begin + i] = 1.0 - 6.0 * s * (1.0 - s);

@@ -29,6 +29,19 @@ TEST(Decide, TakesTheMostProbableWhereOthersPredictWorse) {
   EXPECT_TRUE(d.rivals.empty());
 }
 
+TEST(Decide, HoldsToWhatClosesTheGapWhereAWideErrorPredictsAsWell) {
+  Judged leak = model({"muscle_leak"}, 14.0, 0.0), nothing = described(0.0, 4.7);
+  nothing.held_out << -16.0, 1.0, -3.0, -1.0;  // 19 +- 16 nats behind
+  leak.above_noise = 0.05;
+  nothing.above_noise = 1.0;
+  EXPECT_EQ(decide({nothing, leak}).verdict, Verdict::missing_effect);
+  leak.above_noise = 0.5;
+  EXPECT_EQ(decide({nothing, leak}).verdict, Verdict::nothing_missing);
+  leak.above_noise = 0.05;
+  leak.score = 2.0;  // no strong evidence
+  EXPECT_EQ(decide({nothing, leak}).verdict, Verdict::nothing_missing);
+}
+
 TEST(Decide, PrefersTheSimplerThatPredictsAsWell) {
   // 16 nats more probable, but only within this load: chance, where disturbances are not of the kind assumed.
   Judged bigger = model({"pressure_threshold"}, 16.0, 0.0), numbers = model({}, 0.0, 0.0);
