@@ -109,7 +109,7 @@ class Env(unittest.TestCase):
         self.assertEqual((env.history["angle_rad"][-1], env.history["opposite_command"][-1]),
                          (ride.reading.angle_rad, info["current_2_mA"]))
         for said, bad in (("loads_kg = .*: must be left out", lambda: mckibben.Env("thesis_pair", loads_kg=(1.0, 2.0))),
-                          (r"of shape \(2,\)", lambda: env.step([0.1])), ("'load_kg' is unknown", lambda: env.reset(options={"load_kg": 9.0})),
+                          (r"of shape \(2,\)", lambda: env.step([0.1])), ("load_kg: must be left out; no load hangs on a pair", lambda: env.reset(options={"load_kg": 9.0})),
                           ("all rigs of an environment", lambda: mckibben.Env(["thesis", "thesis_pair"])),
                           ("drawn_target draws contraction ratios", lambda: mckibben.Env("thesis_pair", target=mckibben.env.drawn_target)),
                           ("VectorEnv is of rigs with one muscle", lambda: mckibben.VectorEnv(2, "thesis_pair")),
@@ -171,8 +171,11 @@ class Env(unittest.TestCase):
             env.step([0.0])
         with self.assertRaises(mckibben.InputError):
             mckibben.Env(target={"kind": "sine"})
-        with self.assertRaisesRegex(ValueError, "duration_s = 0.012: must be two ticks at least, of 0.012 s"):
-            mckibben.Env(duration_s=0.012)
+        for short in (0.012, 0.0001):
+            with self.assertRaisesRegex(ValueError, f"duration_s = {short}: must be two ticks at least, of 0.012 s"):
+                mckibben.Env(duration_s=short)
+        with self.assertRaisesRegex(ValueError, "target: the function that draws it failed.*KeyError: 'speed'"):
+            mckibben.Env(target=lambda random: {}["speed"])
         self.assertEqual(env.reset(seed=numpy.int64(3))[1], env.reset(seed=3)[1])
 
         def fails(**commands):

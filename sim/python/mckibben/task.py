@@ -35,10 +35,14 @@ def options_of(given):
     return dict(given or {})
 
 
-def one_of(several, random):
+def one_of(name, several, random):
     """One of a list, by chance; what a function of chance makes; or itself."""
     if callable(several):
-        return several(random)
+        try:
+            return several(random)
+        except Exception as error:
+            raise ValueError(f"{name}: the function that draws it failed, called with a numpy.random.Generator: "
+                             f"{type(error).__name__}: {error}") from error
     if isinstance(several, (list, tuple)):
         return several[int(random.integers(len(several)))]
     return several
@@ -76,7 +80,7 @@ class Task:
                 raise ValueError(f"{name}: a list of one at least, for each episode to draw from")
         self.pair = None  # as the first rig is
         several = isinstance(rig, (list, tuple))
-        made = [self.made(one) for one in (rig if several else [rig(numpy.random.default_rng(0)) if callable(rig) else rig])]
+        made = [self.made(one) for one in (rig if several else [one_of("rig", rig, numpy.random.default_rng(0))])]
         self.rig = rig if callable(rig) else made if several else made[0]
         self.rigs = [] if callable(rig) else made  # known before they are drawn
         if self.pair and loads_kg is not None:
@@ -103,9 +107,12 @@ class Task:
             low = [-end for end in high]
         self.observed = numpy.float32([*low, *-ends]), numpy.float32([*high, *ends])
         self.fixed = None
-        rig, _, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
+        tick_s, drawn = made[0].tick_s, ()
+        if self.duration_s > tick_s:
+            rig, _, _, drawn = self.draw(numpy.random.default_rng(0), {})  # says what is wrong before the first episode
+            tick_s = rig.tick_s
         if len(drawn) < 2:
-            raise ValueError(f"duration_s = {duration_s!r}: must be two ticks at least, of {rig.tick_s:g} s each")
+            raise ValueError(f"duration_s = {duration_s!r}: must be two ticks at least, of {tick_s:g} s each")
         if isinstance(self.rig, Rig) and isinstance(self.target, dict):
             self.fixed = drawn
 
@@ -129,7 +136,9 @@ class Task:
 
     def check(self, options, *seeds):
         """Of a reset, before it changes anything; without what is of a VectorEnv."""
-        if unknown := set(options) - ({"load_kg"} if not self.pair else set()):
+        if self.pair and "load_kg" in options:
+            raise ValueError("options: load_kg: must be left out; no load hangs on a pair of muscles")
+        if unknown := set(options) - {"load_kg"}:
             raise ValueError(f"options: {', '.join(sorted(map(repr, unknown)))} is unknown; there are load_kg, of one muscle, "
                              "and reset_mask, of a VectorEnv")
         if "load_kg" in options:
@@ -160,10 +169,10 @@ class Task:
 
     def draw(self, random, options):
         """Rig, load [kg] (none of a pair) and target of an episode: as a scenario has it, and tick by tick."""
-        rig = one_of(self.rig, random)
+        rig = one_of("rig", self.rig, random)
         if callable(self.rig):
             rig = self.made(rig)
-        target = one_of(self.target, random)
+        target = one_of("target", self.target, random)
         load_kg = None if self.pair else float(options.get("load_kg", random.uniform(*self.loads_kg)))
         if self.fixed is not None:
             return rig, load_kg, target, self.fixed
