@@ -54,7 +54,8 @@ struct ValveLine {
   double span_current_mA = 0.0;
   double zero_pressure_Pa = 0.0;
   double span_pressure_Pa = 0.0;
-  std::string_view unit = "mA";  ///< of the commands: mA, V or bar
+  std::string_view unit = "mA";               ///< of the commands: mA, V or bar
+  std::optional<double> closed_current_mA{};  ///< at which it neither fills nor vents; not of all valves
 
   double slope_Pa_per_mA() const;
   double pressure_Pa(double current_mA) const;  ///< kept between its ends

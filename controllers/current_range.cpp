@@ -6,7 +6,7 @@
 namespace mckibben::controllers {
 
 CurrentRange working_range(const ValveLine& valve, double largest_mA) {
-  return {valve.zero_current_mA, std::min(valve.span_current_mA, largest_mA)};
+  return {valve.zero_current_mA, std::min(valve.span_current_mA, largest_mA), valve.closed_current_mA};
 }
 
 CurrentRange working_range(const Knowledge& knowledge) {

@@ -5,7 +5,7 @@ namespace mckibben::controllers {
 
 void LeverPidSettings::follow(const CurrentRange& range) {
   OutputLimits::follow(range);
-  RestTerms::follow(*this);
+  RestTerms::follow(*this, range);
 }
 
 std::unique_ptr<Controller> LeverPidSettings::make(const Knowledge& knowledge) const {

@@ -44,7 +44,7 @@ PidTerms followed(PidTerms terms, const Knowledge& knowledge) {
 
 void PidSettings::follow(const CurrentRange& range) {
   PidTerms::follow(range);
-  RestTerms::follow(*this);
+  RestTerms::follow(*this, range);
 }
 
 PidLoop::PidLoop(const PidTerms& terms, const Knowledge& knowledge)

@@ -2,6 +2,7 @@
 // filter, back-calculation against windup (Astrom & Hagglund 1995, section 3). Encoder counts in, mA out.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -99,13 +100,18 @@ class PidLoop {
 struct RestTerms {
   std::optional<double> rest_current_mA = std::nullopt;
 
-  void follow(const OutputLimits& limits) {
-    if (!rest_current_mA) rest_current_mA = limits.lowest_current_mA;
+  /// `limits` have followed the range.
+  void follow(const OutputLimits& limits, const CurrentRange& range) {
+    if (rest_current_mA) return;
+    const double low_mA = *limits.lowest_current_mA;
+    rest_current_mA =
+        std::clamp(range.closed_mA.value_or(low_mA), low_mA, std::max(low_mA, *limits.highest_current_mA));
   }
 
   static void fields(auto& self, auto& visit) {
     visit("rest_command", self.rest_current_mA, "mA", 0.0, 100.0,
-          "command before the first reading, and output without error; lowest_command if absent");
+          "command before the first reading, and output without error; if absent lowest_command, of 2/2 "
+          "on/off valves the middle, where both are shut");
   }
   void rules(auto& report, const OutputLimits& limits) const {
     if (rest_current_mA && ((limits.lowest_current_mA && *rest_current_mA < *limits.lowest_current_mA) ||

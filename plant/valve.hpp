@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -111,6 +112,12 @@ struct ValveOf {
   /// How far a command is on the way from zero_command to span_command, 0 to 1.
   double way(double command) const {
     return std::clamp((command - zero_command) / (span_command - zero_command), 0.0, 1.0);
+  }
+
+  /// The command at which valves that are open or shut are both shut; a valve for both has none.
+  std::optional<double> closed_command() const {
+    if (!is_on_off() || ports != Ports::two) return std::nullopt;
+    return 0.5 * (zero_command + span_command);
   }
 
   template <class Self, class Visitor>

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
 #include <controllers/settings.hpp>
@@ -156,17 +157,15 @@ struct Scenario {
  private:
   static void fields_of_one(auto& self, auto& visit) {
     visit.required("loads", self.loads_kg, "kg", 0.0, 500.0, "masses of the loads");
-    const auto target = [&](auto& movement, std::string_view meaning) {
-      if (self.rig.valve.seals())
-        visit("target", movement, "nothing follows it; if left out, errors count from 0");
-      else
-        visit.required("target", movement, meaning);
+    const auto target = [&](auto& movement) {
+      visit("target", movement,
+            "the movement that is wanted; of a lever angles; may be left out where nothing follows it: given "
+            "commands, a sealed muscle");
     };
     if (self.rig.lever() != nullptr)
-      target(self.angle, "the movement that is wanted");
+      target(self.angle);
     else
-      target(self.target,
-             "the movement that is wanted; of a lever angles; may be left out if a muscle is sealed");
+      target(self.target);
     fields_of_time(self, visit);
     const auto controllers_of_rig = [&](auto& controllers) {
       if (self.rig.valve.seals())
@@ -255,6 +254,12 @@ inline Scenario lever_scenario() {
   Scenario scenario;
   scenario.rig.mechanics = plant::Lever{};
   return scenario;
+}
+
+/// Whether it plays a command, whatever the target.
+inline bool is_given(const controllers::Settings& settings) {
+  return std::visit([]<class One>(const One&) { return controllers::is_one_of<One, CampaignWaveform>; },
+                    settings);
 }
 
 /// What names the files of a run: its target, if targets have names, its load and its controller.

@@ -243,6 +243,12 @@ class ScenarioChecker {
 
   void check_target() {
     if (root_.find("target") == nullptr) {
+      const auto follows = std::ranges::find_if_not(scenario_.controllers, domain::is_given);
+      const bool none = scenario_.controllers.empty();
+      if (!scenario_.rig.valve.seals() && (none || follows != scenario_.controllers.end()))
+        problems_.error(source_, root_.place,
+                        fmt::format("the key target is missing: the movement that {} follows",
+                                    none ? "a controller" : controllers::name_of(*follows)));
       const auto stays_at_0 = []<class Value>(controllers::TargetOf<Value>& target) {
         target = controllers::PointsOf<Value>{.points = std::vector<controllers::MoveOf<Value>>(1)};
       };

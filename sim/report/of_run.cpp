@@ -58,12 +58,6 @@ std::string sentence_of_currents(const run::TrackedRun& run) {
       joint.opposite_cord_force_N.low, joint.opposite_cord_force_N.high);
 }
 
-/// Whether it plays a current, whatever the target.
-bool is_given(const controllers::Settings& settings) {
-  return std::visit(
-      []<class One>(const One&) { return controllers::is_one_of<One, domain::CampaignWaveform>; }, settings);
-}
-
 /// How far the loads move under a given current, in place of errors from a target that it does not follow.
 std::string sentence_of_given(const Scenario& scenario, const Comparison& comparison,
                               const std::string& controller) {
@@ -84,7 +78,7 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   for (std::size_t c = 0; c < comparison.spreads.size(); ++c) {
     const auto& one = comparison.spreads[c];
     if (!one.rmse) continue;
-    if (is_given(scenario.controllers[c]) && !of_angle(scenario)) {
+    if (domain::is_given(scenario.controllers[c]) && !of_angle(scenario)) {
       of_given += sentence_of_given(scenario, comparison, one.controller);
       continue;
     }

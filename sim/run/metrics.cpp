@@ -128,11 +128,11 @@ Metrics measure(const Followed& run) {
   metrics.air_kg = run.air_kg;
   if (run.limits) {
     constexpr double rounding_mA = 1e-9;
-    const auto [lowest_mA, highest_mA] = *run.limits;
-    metrics.at_lowest_current = share_of(
-        run.current_mA, [least_mA = lowest_mA](double i_mA) { return i_mA <= least_mA + rounding_mA; });
-    metrics.at_highest_current = share_of(
-        run.current_mA, [most_mA = highest_mA](double i_mA) { return i_mA >= most_mA - rounding_mA; });
+    const double lowest_mA = run.limits->lowest_mA, highest_mA = run.limits->highest_mA;
+    metrics.at_lowest_current =
+        share_of(run.current_mA, [&](double i_mA) { return i_mA <= lowest_mA + rounding_mA; });
+    metrics.at_highest_current =
+        share_of(run.current_mA, [&](double i_mA) { return i_mA >= highest_mA - rounding_mA; });
     metrics.swings = static_cast<double>(returns_to_an_end(run.current_mA, lowest_mA + rounding_mA,
                                                            highest_mA - rounding_mA)) >
                      static_cast<double>(ticks) * run.tick_s;

@@ -230,8 +230,8 @@ controllers::ForceModel force_model(const plant::Muscle& muscle) {
 }
 
 controllers::ValveLine valve_line(const plant::Valve& valve) {
-  return {valve.zero_command, valve.span_command, valve.zero_pressure_Pa, valve.span_pressure_Pa,
-          name_of(valve.command_unit)};
+  return {valve.zero_command,     valve.span_command,          valve.zero_pressure_Pa,
+          valve.span_pressure_Pa, name_of(valve.command_unit), valve.closed_command()};
 }
 
 }  // namespace

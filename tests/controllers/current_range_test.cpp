@@ -36,6 +36,22 @@ TEST(CurrentRange, OpenLimitsFollowIt) {
   }
 }
 
+// Valves that are both shut in the middle begin there: at the lowest command they would vent.
+TEST(CurrentRange, ALoopRestsWhereTheValveDoesNothing) {
+  constexpr CurrentRange shut_at_5{0.0, 10.0, 5.0};
+  PidSettings pid;
+  pid.follow(shut_at_5);
+  EXPECT_EQ(pid.rest_current_mA, 5.0);
+  PidSettings above;
+  above.lowest_current_mA = 6.0;
+  above.follow(shut_at_5);
+  EXPECT_EQ(above.rest_current_mA, 6.0) << "within its limits";
+  PidSettings given;
+  given.rest_current_mA = 3.0;
+  given.follow(shut_at_5);
+  EXPECT_EQ(given.rest_current_mA, 3.0);
+}
+
 TEST(CurrentRange, WeighingFollowsItInTheThesissProportions) {
   OpenLoopSettings settings;
   settings.follow(thesis);

@@ -46,6 +46,17 @@ TEST(CurrentChecks, OpenCurrentsFollowTheValveAndStandInTheResolvedScenario) {
   EXPECT_EQ(pid.at("rest_command"), "0 mA");
 }
 
+TEST(CurrentChecks, ALoopOnTwoOnOffValvesRestsWithBothShut) {
+  std::vector<Problem> warnings;
+  const auto rest = [&](const std::string& ports) {
+    const std::string rig =
+        "{valve: {kind: on_off, ports: " + ports + ", zero_command: -5 V, span_command: 10 V}}";
+    return scenario_json(read(rig, "{kind: pid}", warnings)).at("controllers")[0].at("rest_command");
+  };
+  EXPECT_EQ(rest("2/2"), "2.5 V");
+  EXPECT_EQ(rest("3/2"), "-5 V") << "one valve for both is never shut";
+}
+
 TEST(CurrentChecks, LimitsBeyondTheValvesAreWarnedOfWithTheirLine) {
   std::vector<Problem> warnings;
   read(to_10_mA, "{kind: pid, highest_command: 20 mA}", warnings);

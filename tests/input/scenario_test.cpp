@@ -89,6 +89,23 @@ TEST(Scenario, ALoadThatIsNextToNothingIsAskedAbout) {
             std::string::npos);
 }
 
+TEST(Scenario, GivenCommandsNeedNoTarget) {
+  const auto with = [](const std::string& controllers) {
+    return "schema: mckibben-scenario/1\nloads: [11 kg]\nduration: 2 s\ncontrollers: [" + controllers + "]\n";
+  };
+  const std::string sine = "{kind: sine_current, low: 4 mA, high: 10 mA, period: 2 s}";
+  const Scenario scenario = read_text(with(sine));
+  EXPECT_EQ(controllers::range(scenario.target, 1.0, 0.3), std::pair(0.0, 0.0));
+  try {
+    read_text(with(sine + ", {kind: pid, name: mine}"));
+    ADD_FAILURE() << "a PID follows a target";
+  } catch (const BadInput& bad) {
+    EXPECT_NE(std::string(bad.what()).find("target is missing: the movement that mine follows"),
+              std::string::npos)
+        << bad.what();
+  }
+}
+
 TEST(Scenario, WarnsOfRisk) {
   std::string text = good_scenario;
   const std::string height = "to: 0.05";

@@ -94,7 +94,6 @@ TEST(Simulate, APidWithADeadZoneLetsSolenoidsRest) {
   controllers::PidSettings settings;
   settings.proportional_mA = 100.0;
   settings.integral_time_s = settings.derivative_time_s = 0.0;
-  settings.rest_current_mA = 12.0;
   settings.dead_zone = 0.002;
   const auto controller = controllers::make(controllers::Settings(settings), knowledge_of(bench.rig, {0.08}));
   const auto recording = simulate(bench, *controller);
