@@ -25,14 +25,8 @@
 namespace mckibben::input {
 namespace {
 
-struct FreeUnit {
-  void operator()(ut_unit* unit) const { ut_free(unit); }
-};
-struct FreeConverter {
-  void operator()(cv_converter* converter) const { cv_free(converter); }
-};
-using Unit = std::unique_ptr<ut_unit, FreeUnit>;
-using Converter = std::unique_ptr<cv_converter, FreeConverter>;
+using Unit = std::unique_ptr<ut_unit, decltype([](ut_unit* unit) { ut_free(unit); })>;
+using Converter = std::unique_ptr<cv_converter, decltype([](cv_converter* one) { cv_free(one); })>;
 
 constexpr std::size_t longest_quantity = 200;
 constexpr std::string_view unknown_spread = "unknown";
@@ -267,6 +261,19 @@ ut_status Definition::galilean(const ut_unit*, double scale, const ut_unit* unit
   return ut_accept_visitor(unit, &definition, self);
 }
 
+/// Of valves that are open or shut.
+std::string_view if_a_duty(std::string_view unit, std::string_view si_unit) {
+  if (unit != "%" || (si_unit != "mA" && si_unit != "V")) return "";
+  return "; a duty is a command, too: 0 % is half-way from zero_command to span_command, 100 % span_command "
+         "(ports: 3/2: 0 % is zero_command); zero_command: -100 V, span_command: 100 V make 1 V of 1 %";
+}
+
+/// To a number that must have none: of a length the contraction ratio may be meant.
+std::string without_unit(double value, std::string_view number, std::string_view unit) {
+  if (convert({&value, 1}, unit, "m") != Fit::fits) return fmt::format(": for example {}", number);
+  return fmt::format("; a contraction ratio is a length over rest_length, of 250 mm {:.3g}", value / 0.25);
+}
+
 }  // namespace
 
 std::optional<law::UnitSize> unit_size(std::string_view unit) {
@@ -279,17 +286,6 @@ std::optional<law::UnitSize> unit_size(std::string_view unit) {
     return std::nullopt;
   return found.size;
 }
-
-namespace {
-
-/// Of valves that are open or shut.
-std::string_view if_a_duty(std::string_view unit, std::string_view si_unit) {
-  if (unit != "%" || (si_unit != "mA" && si_unit != "V")) return "";
-  return "; a duty is a command, too: 0 % is half-way from zero_command to span_command, 100 % span_command "
-         "(ports: 3/2: 0 % is zero_command)";
-}
-
-}  // namespace
 
 double read_quantity(std::string_view text, std::string_view si_unit, const Usual& usual) {
   const std::string_view whole = trimmed(text);
@@ -307,7 +303,8 @@ double read_quantity(std::string_view text, std::string_view si_unit, const Usua
   if (si_unit == "1") {
     if (unit.empty()) return *value;
     if (unit == "%") return *value / 100.0;
-    throw BadQuantity(fmt::format("{} must be a bare number, without a unit: for example {}", whole, number));
+    throw BadQuantity(
+        fmt::format("{} must be a bare number, without a unit{}", whole, without_unit(*value, number, unit)));
   }
   if (unit.empty())
     throw BadQuantity(fmt::format("{} has no unit; it is measured in {}{}", whole, si_unit,

@@ -71,14 +71,15 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
 
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known) {
   std::vector<std::string_view> meant;
-  if (const Synonym* term = word.size() > longest_word ? nullptr : synonym(word))
-    meant.assign(term->names.begin(), term->names.end());
+  const Synonym* const term = word.size() > longest_word ? nullptr : synonym(word);
+  if (term != nullptr) meant.assign(term->names.begin(), term->names.end());
   std::erase_if(meant, [&](std::string_view name) { return std::ranges::find(known, name) == known.end(); });
   if (meant.empty() && word.size() <= longest_word) meant = with_part(word, known);
   if (!meant.empty()) return fmt::format("; did you mean {}?", fmt::join(meant, " or "));
   if (const auto best = nearest(word, known)) return fmt::format("; did you mean {}?", *best);
   if (word.size() <= longest_word) meant = with_ending(word, known);
-  return meant.empty() ? std::string{} : fmt::format("; did you mean {}?", fmt::join(meant, " or "));
+  if (!meant.empty()) return fmt::format("; did you mean {}?", fmt::join(meant, " or "));
+  return term == nullptr ? std::string{} : fmt::format("; that is {}", term->here);
 }
 
 std::string join(std::span<const std::string_view> words) {

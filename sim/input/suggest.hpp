@@ -17,7 +17,8 @@ std::size_t edit_distance(std::string_view left, std::string_view right);
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known);
 
 /// `; did you mean WORD?` or nothing, to hang on a message: the known words that the field calls so
-/// (synonyms.hpp), else those of which it is a part, else the nearest one.
+/// (synonyms.hpp), else those of which it is a part, else the nearest one. Of a field's word that is none of
+/// them `; that is ...`, what it is here.
 std::string did_you_mean(std::string_view word, std::span<const std::string_view> known);
 
 /// The words separated by commas.

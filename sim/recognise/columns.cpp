@@ -26,6 +26,15 @@ bool is_misspelt(const std::string& unit) {
   return unit.starts_with("mPa");
 }
 
+/// What can stand there, also of an ADC's numbers.
+std::string example_of(const domain::Quantity& quantity) {
+  const std::string_view unit = quantity.key == "contraction" ? "mm" : quantity.unit();
+  return fmt::format(
+      "write one, as {0}; of numbers of an ADC {0} with factor: the {0} of one step, and zero: what it reads "
+      "at 0 {0}",
+      unit);
+}
+
 Told unit_told(const Heading& heading) {
   if (!heading.other_unit.empty()) return two_units(heading);
   if (is_misspelt(heading.unit)) return left_open("the table says mPa, a thousandth of a pascal: MPa?");
@@ -33,7 +42,7 @@ Told unit_told(const Heading& heading) {
   if (!heading.unknown.empty())
     return left_open(
         fmt::format("the table says ({}), which is no unit that is known here", heading.unknown));
-  if (heading.unit.empty()) return left_open("the table says no unit");
+  if (heading.unit.empty()) return left_open("the table says no unit: " + example_of(*heading.quantity));
   return left_open(
       fmt::format("the table says {}, which is none of {}: write unit, zero and factor of the sensor",
                   heading.unit, heading.quantity->key));
@@ -269,24 +278,6 @@ Setting rows_of_ticks(const UnknownTable& table, bool rig_is_known) {
   return {"rows_are_ticks", left_open(fmt::format("{}; true if rows are the rig's tick apart{}", why,
                                                   said.reason.empty() ? "" : ": " + said.reason))};
 }
-
-}  // namespace
-
-Told two_units(const Heading& heading) {
-  return left_open(
-      fmt::format("its heading says {}, the line below it {}: which?", heading.other_unit, heading.unit));
-}
-
-Told decimals_or_thousands(const std::string& number) {
-  return left_open(
-      fmt::format("the sign in {} may stand before decimals, 1, or between thousands, 1000", number));
-}
-
-Told unit_of_the_map() {
-  return {"1", "the unit that is written here counts, not the heading's"};
-}
-
-namespace {
 
 constexpr double follows = 0.5, changes_by = 0.1, stays_within = 0.3;
 

@@ -22,6 +22,7 @@
 #include <sim/input/rigs.hpp>
 #include <sim/run/look.hpp>
 #include <sim/tasks/tasks.hpp>
+#include <sim/thesis/calibrate.hpp>
 
 namespace mckibben::tasks {
 
@@ -111,6 +112,7 @@ std::vector<std::string> checked(const domain::Dataset& data) {
 }  // namespace
 
 domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say) {
+  thesis::require_pressure_valve(data);
   const bool stamped = data.own_clock && input::why_unfit(domain::Purpose::calibration, data).empty();
   if (!stamped) input::require_ticks(data, "calibrate");
   for (const std::string& warning : checked(data)) say("warning: " + warning);

@@ -159,11 +159,15 @@ class Details {
 
 }  // namespace
 
-CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options) {
+void require_pressure_valve(const domain::Dataset& dataset) {
   if (dataset.rig.valve.is_on_off())
     refuse(dataset,
            "the rig's valve is on_off, which sets a flow: the thesis's models are of a valve that sets a "
            "pressure (servo, regulator). Controllers with a model of the whole rig (model_inverse) count it");
+}
+
+CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options) {
+  require_pressure_valve(dataset);
   CalibrationResult result;
   Wrong wrong;
   check_effects(dataset, wrong);

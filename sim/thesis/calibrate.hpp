@@ -39,6 +39,9 @@ struct CalibrationResult {
   }
 };
 
+/// Throws data::UnfitData if the rig's valve is none of those that the models are of.
+void require_pressure_valve(const domain::Dataset& dataset);
+
 /// Throws data::UnfitData if the data set cannot bear the fits; the message says what would help.
 CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options);
 

@@ -59,6 +59,20 @@ TEST(Calibrate, WarnsOfFitsThatCannotBeUsed) {
   EXPECT_GT(document.at("friction").at("relaxation").at("spread").get<double>(), 1.0);
 }
 
+TEST(Calibrate, RefusesAValveThatSetsAFlowBeforeAllElse) {
+  const Scratch scratch;
+  write_text(scratch / "small.yaml", campaign_of_sines());
+  ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
+  write_text(scratch / "data/dataset.yaml",
+             read_text(scratch / "data/dataset.yaml") +
+                 "columns: {current: {column: current_mA, unit: mA, factor: 0.001}}\n");
+  write_text(scratch / "shut.yaml", "schema: mckibben-rig/1\nvalve: {kind: on_off}\n");
+  const Said said = mckibben("calibrate data --rig shut.yaml", scratch);
+  EXPECT_EQ(said.status, 65);
+  EXPECT_TRUE(holds(said.err, "the rig's valve is on_off, which sets a flow"));
+  EXPECT_TRUE(lacks(said.err, "amperes")) << "found by simulating all runs";
+}
+
 TEST(Calibrate, SaysAllThatIsWrongAtOnce) {
   const Scratch scratch;
   write_text(scratch / "small.yaml", campaign_of_sines());

@@ -105,6 +105,8 @@ TEST(Suggest, OnlyWhatIsNear) {
   EXPECT_EQ(did_you_mean("radiu", known), "");
   EXPECT_EQ(did_you_mean("inner_radius", known), "; did you mean rest_radius?") << "by its last part";
   EXPECT_EQ(did_you_mean("rest_radus", known), "; did you mean rest_radius?");
+  EXPECT_TRUE(did_you_mean("laser", known).starts_with("; that is `sensors` of the rig: `[{signal: "))
+      << "a word of the field that stands elsewhere";
 }
 
 TEST(Hash, PublishedVectors) {  // FIPS 180-2, appendix B

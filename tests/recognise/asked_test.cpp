@@ -47,6 +47,15 @@ TEST_F(Asked, ARateOfOneThousandIsNoRateOfOne) {
   EXPECT_EQ(of("Backup interval: 1 s\nn,p_bar,x_mm\n", row).maps[0].find("time"), nullptr);
 }
 
+TEST_F(Asked, WhatCanStandWhereNoUnitIsSaid) {
+  const auto row = [](int k) {
+    return fmt::format("{:.3f},{:.0f},{:.3f}", 0.012 * k, 102 + 150 * drive(k), 10 * drive(k));
+  };
+  const auto guess = column(of("t_s,pressure,x_mm\n", row), "muscle_pressure");
+  EXPECT_TRUE(guess.unit.open());
+  EXPECT_TRUE(holds(guess.unit.reason, "as bar; of numbers of an ADC bar with factor: ", "and zero: "));
+}
+
 TEST_F(Asked, ALineBetweenRowsNamesTheLoadBelow) {
   const auto row = [](int k) {
     return fmt::format("{}{:.3f},{:.3f},{:.2f}", k == 100 ? "Run 2: load 7 kg\n" : "", 0.012 * k,
