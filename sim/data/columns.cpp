@@ -18,6 +18,7 @@
 #include <sim/data/ranges.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
+#include <sim/data/units.hpp>
 
 namespace mckibben::data {
 namespace {
@@ -38,13 +39,6 @@ double mean(const Series& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// A unit that a column may be in, and what one of it is in ours.
-struct Unit {
-  std::string name;
-  double size;
-  double same = of_columns.same;  ///< a slope within this factor speaks for it
-};
-
 /// A quantity of the map, and how it is judged.
 struct Quantity {
   std::string key;
@@ -59,10 +53,7 @@ struct Quantity {
   double most = 0.0;     ///< that a rig can do: of a unit that is too small there must be more
   bool by_mean = false;  ///< the mean says more of what hardly moves than a slope does
 
-  const Unit* unit_said() const {
-    const auto found = std::ranges::find(units, place.unit, &Unit::name);
-    return found != units.end() ? &*found : nullptr;
-  }
+  const Unit* unit_said() const { return find_unit(units, place.unit); }
 };
 
 std::string in_words(const std::string& unit) {
@@ -157,18 +148,9 @@ class Columns {
 
   Quantity contraction(const domain::Run& run) const {
     const plant::Rig& rig = data_.rig;
-    const double metre = 1.0 / rig.muscle.rest_length_m, radian = rig.joint.wheel_radius_m * metre;
     Quantity judged{.key = "contraction",
                     .place = map_["contraction"],
-                    .units = {{"1", 1.0},
-                              {"%", 0.01},
-                              {"mm", 1e-3 * metre},
-                              {"cm", 1e-2 * metre},
-                              {"m", metre},
-                              {"in", 0.0254 * metre},
-                              {"count", plant::count_height_m(rig) * metre},
-                              {"deg", plant::degree_rad * radian},
-                              {"rad", radian}},
+                    .units = units_of_contraction(rig),
                     .said = run.ratio_per_unit,
                     .moves = moving(),
                     .alike = of_columns.alike,
@@ -212,23 +194,24 @@ class Columns {
 
   Quantity pressure(Beside which) const {
     const std::string key = told(which, data_.rig.pair() != nullptr).first;
-    return {
-        .key = key,
-        .place = map_[key],
-        .units = {{"bar", 1e5}, {"kPa", 1e3}, {"psi", 6894.757}, {"mbar", 1e2}, {"MPa", 1e6}, {"Pa", 1.0}},
-        .shown = " bar",
-        .of_shown = plant::Pa_per_bar,
-        .moves = of_columns.gauge_bar * plant::Pa_per_bar,
-        .opposite = std::numeric_limits<double>::infinity()};  // what does not follow is dead
+    return {.key = key,
+            .place = map_[key],
+            .units = units_of_pressure(),
+            .shown = " bar",
+            .of_shown = plant::Pa_per_bar,
+            .moves = of_columns.gauge_bar * plant::Pa_per_bar,
+            .opposite = std::numeric_limits<double>::infinity()};  // what does not follow is dead
   }
 
   /// One finding for all runs of which the same is to be said; `seen` is of the first.
   void find(const std::string& quantity, const std::vector<std::size_t>& runs, const std::string& seen,
-            const std::string& so) {
-    const auto same_as = [&](const Finding& one) { return one.message.ends_with(so); };
+            const std::string& so, Severity severity = Severity::refused) {
+    const auto same_as = [&](const Finding& one) {
+      return one.severity == severity && one.message.ends_with(so);
+    };
     const auto found = std::ranges::find_if(findings_, same_as);
     if (found == findings_.end())
-      findings_.push_back({.quantity = quantity, .runs = runs, .message = seen + so});
+      findings_.push_back({.quantity = quantity, .runs = runs, .message = seen + so, .severity = severity});
     else
       found->runs.insert(found->runs.end(), runs.begin(), runs.end());
   }
@@ -332,23 +315,47 @@ class Columns {
     const Quantity quantity = pressure(which);
     if (!judge(quantity, rows)) return;
     const Line line(rows.measured, rows.model);
-    if (range(rows.model) > quantity.moves &&
-        (line.slope < of_columns.least_gauge_slope || line.slope > of_columns.most_gauge_slope)) {
-      if (auto found = other_gain(rows, quantity.key, quantity.place)) findings_.push_back(std::move(*found));
+    const double atmosphere_Pa = data_.rig.gas.atmosphere_Pa, rest_Pa = off_at_rest(rows);
+    const auto an_atmosphere = [&](double difference_Pa) {
+      return std::abs(std::abs(difference_Pa) / atmosphere_Pa - 1.0) < of_columns.atmosphere;
+    };
+    const bool everywhere =
+        an_atmosphere(line.mean_difference) && an_atmosphere(lowest(rows.measured) - lowest(rows.model)) &&
+        line.slope > of_columns.least_gauge_slope && line.slope < of_columns.most_gauge_slope;
+    if (everywhere || an_atmosphere(rest_Pa)) {
+      absolute(quantity, i, everywhere ? line.mean_difference : rest_Pa, everywhere);
       return;
     }
-    const double atmosphere_Pa = data_.rig.gas.atmosphere_Pa;
-    const auto an_atmosphere = [&](double difference_Pa) {
-      return std::abs(difference_Pa / atmosphere_Pa - 1.0) < of_columns.atmosphere;
-    };
-    if (!an_atmosphere(line.mean_difference) || !an_atmosphere(lowest(rows.measured) - lowest(rows.model)))
-      return;
+    if (range(rows.model) > quantity.moves &&
+        (line.slope < of_columns.least_gauge_slope || line.slope > of_columns.most_gauge_slope))
+      if (auto found = other_gain(rows, quantity.key, quantity.place, quantity.units))
+        findings_.push_back(std::move(*found));
+  }
+
+  /// What a gauge reads more, in the middle, where the model's pressure is as low as it comes; 0 where it
+  /// hardly rests there.
+  static double off_at_rest(const Compared& rows) {
+    const double rest_Pa = lowest(rows.model) + thresholds.reading.gauge_step_Pa;
+    Series off_Pa;
+    for (std::size_t k = 0; k < rows.model.size(); ++k)
+      if (rows.model[k] < rest_Pa) off_Pa.push_back(rows.measured[k] - rows.model[k]);
+    return off_Pa.size() < thresholds.plausible.least_rows ? 0.0 : upper_median(std::move(off_Pa));
+  }
+
+  void absolute(const Quantity& quantity, std::size_t run, double off_Pa, bool everywhere) {
     ColumnPlace meant = quantity.place;
+    const double sign = off_Pa > 0.0 ? 1.0 : -1.0;
     if (const std::optional<double> said = size_Pa(meant.unit))
-      meant.zero += atmosphere_Pa / *said / meant.factor;
-    find(quantity.key, {i}, quantity.key + " is about one atmosphere too high; ",
-         mend("this looks like absolute, not gauge pressure: the zero takes the atmosphere off",
-              line_of(quantity.key, meant)));
+      meant.zero += sign * data_.rig.gas.atmosphere_Pa / *said / meant.factor;
+    find(quantity.key, {run},
+         fmt::format("{} is about one atmosphere too {}{}; ", quantity.key, sign > 0.0 ? "high" : "low",
+                     everywhere ? ""
+                                : fmt::format(" where the rig is at rest, {:.3g} bar, in the middle",
+                                              off_Pa / plant::Pa_per_bar)),
+         mend(sign > 0.0 ? "this looks like absolute, not gauge pressure: the zero takes the atmosphere off"
+                         : "an atmosphere seems to be taken off what is gauge pressure already",
+              line_of(quantity.key, meant)),
+         everywhere ? Severity::refused : Severity::doubtful);
   }
 
   static constexpr const char* divided_twice = "";

@@ -14,6 +14,7 @@
 #include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/series.hpp>
+#include <sim/data/start.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/domain/rig_number.hpp>
@@ -299,6 +300,7 @@ Examined examine(const domain::Dataset& data, const std::vector<Expected>& expec
   check_columns(data, expected, result.findings);
   if (!result.findings.empty()) return result;  // the wrong numbers would weigh wrong
   if (data.judged() == domain::Judged::contraction) check_loads(data, expected, result.findings);
+  if (auto found = begins_moving(data, expected)) result.findings.push_back(std::move(*found));
   const auto refused = [](const Finding& one) { return one.severity == Severity::refused; };
   if (std::ranges::none_of(result.findings, refused)) Readings(data, expected, result)();
   return result;

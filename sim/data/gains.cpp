@@ -187,9 +187,36 @@ std::optional<Finding> reversed_flow(const domain::Dataset& data) {
                              line)};
 }
 
-std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, ColumnPlace place) {
+std::optional<FittingUnit> unit_that_fits(const Compared& reading, std::string_view said,
+                                          const std::vector<Unit>& units) {
+  const Unit* const own = find_unit(units, said);
+  if (own == nullptr || reading.measured.empty() || range(reading.measured) == 0.0) return std::nullopt;
+  std::optional<FittingUnit> best;
+  for (const Unit& unit : units) {
+    const double factor = unit.size / own->size;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < reading.model.size(); ++k)
+      squares += std::pow(factor * reading.measured[k] - reading.model[k], 2);
+    const double left =
+        std::sqrt(squares / static_cast<double>(reading.model.size())) / (factor * range(reading.measured));
+    if (left < (best ? best->left : of_gains.fitting_unit)) best = {unit.name, left};
+  }
+  return best && best->name != said ? best : std::nullopt;
+}
+
+std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, ColumnPlace place,
+                                  const std::vector<Unit>& units) {
   const Line line(gauge.measured, gauge.model);
   if (line.correlation < of_gains.alike || line.slope <= 0.0) return std::nullopt;
+  if (const auto unit = unit_that_fits(gauge, place.unit, units)) {
+    place.unit = unit->name;
+    return Finding{
+        .quantity = key,
+        .runs = gauge.runs,
+        .message = fmt::format("{} is {:.3g} times what the rig would do: is it in {}? Then columns: {{{}}}",
+                               key, line.slope, unit->name, line_in_unit(key, place)),
+        .severity = Severity::doubtful};
+  }
   const double power = std::pow(10.0, std::round(std::log10(line.slope)));
   const bool is_power = std::abs(std::log(line.slope / power)) < std::log(of_gains.same);
   place.factor = domain::significant(place.factor / (is_power ? power : line.slope), digits);

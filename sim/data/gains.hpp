@@ -7,6 +7,7 @@
 
 #include <sim/data/examine.hpp>
 #include <sim/data/finding.hpp>
+#include <sim/data/units.hpp>
 #include <sim/domain/columns.hpp>
 
 namespace mckibben::data {
@@ -49,6 +50,17 @@ std::optional<Finding> beyond_the_rig(const domain::Dataset& data, const std::ve
 std::optional<Finding> reversed_flow(const domain::Dataset& data);
 
 /// A gauge that goes along with the model and shows many times, or a part of, what it would do.
-std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, domain::ColumnPlace place);
+/// `units`: those that it may be in.
+std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, domain::ColumnPlace place,
+                                  const std::vector<Unit>& units);
+
+/// Another unit in which little is left between readings and model, and the root of what is left, of the
+/// readings' range.
+struct FittingUnit {
+  std::string name;
+  double left;
+};
+std::optional<FittingUnit> unit_that_fits(const Compared& reading, std::string_view said,
+                                          const std::vector<Unit>& units);
 
 }  // namespace mckibben::data

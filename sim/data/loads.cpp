@@ -88,10 +88,28 @@ std::vector<std::size_t> runs_of(const std::vector<Weighed>& list) {
   return runs;
 }
 
+/// How well labels explain what runs seem to weigh.
+struct Fit {
+  double scale = 1.0;   ///< common to all: another muscle, an effect
+  double spread = 0.0;  ///< largest logarithm of what else is left
+
+  double misfit() const { return spread + std::abs(std::log(scale)); }
+};
+
+Fit fit_of(const std::vector<Weighed>& list) {
+  Fit fit{.scale = common_ratio(list)};
+  for (const Weighed& one : list)
+    fit.spread = std::max(fit.spread, one.seems_kg > 0.0 && fit.scale > 0.0
+                                          ? std::abs(std::log(one.seems_kg / one.label_kg / fit.scale))
+                                          : std::numeric_limits<double>::infinity());
+  return fit;
+}
+
 /// A load that is written in another unit: what is carried over what is written.
 struct LoadUnit {
   double ratio, near, sure;  ///< `near`, `sure`: factors
   const char* says;
+  double agree = std::numeric_limits<double>::infinity();  ///< of two loads or more: a factor as well
 };
 
 std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
@@ -100,22 +118,28 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
       {1.0 / plant::gravity_m_per_s2, of_loads.near_newtons, of_loads.near_newtons,
        "N, not kg: write the mass, N / 9.81"},
       {domain::pound_kg, of_loads.near_pounds, of_loads.sure_pounds, "pounds, not kg: write lb"},
+      {1.0 / domain::pound_kg, of_loads.near_kg_as_pounds, 1.0, "kg that are written in lb: write kg",
+       of_loads.near_kg_as_pounds},
       {10.0, of_loads.near_grams, of_loads.sure_tenth,
        "a tenth of what hung (a digit missing, a point misplaced)"}};
   const double ratio = common_ratio(list);
   const auto seems_none = [](const Weighed& one) { return one.seems_kg <= 0.0; };
   if (ratio <= 0.0 || std::ranges::any_of(list, seems_none)) return std::nullopt;
+  const double spread = fit_of(list).spread;
+  const bool several =
+      std::ranges::any_of(list, [&](const Weighed& one) { return one.label_kg != list.front().label_kg; });
   for (const LoadUnit& unit : units) {
+    if (std::isfinite(unit.agree) && !(several && spread < std::log(unit.agree))) continue;
     const double off = std::abs(std::log(ratio / unit.ratio));
     if (off > std::log(unit.near)) continue;
     return Finding{
         "load", runs_of(list),
-        fmt::format(
-            "load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
-            "factor; these look like {}, here load: {:.6g} kg; or the rig is another muscle: are base, "
-            "rest_radius and braid_angle right?",
-            domain::write_kg(list.front().label_kg), list.front().seems_kg, unit.says,
-            unit.ratio * list.front().label_kg),
+        fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
+                    "factor, but for {:.0f} %; these look like {}, here load: {:.6g} kg; or the rig is "
+                    "another muscle: "
+                    "are base, rest_radius, rest_length and braid_angle right?",
+                    domain::write_kg(list.front().label_kg), list.front().seems_kg,
+                    100.0 * std::expm1(spread), unit.says, unit.ratio * list.front().label_kg),
         off < std::log(unit.sure) ? Severity::refused : Severity::doubtful};
   }
   return std::nullopt;
@@ -191,23 +215,6 @@ std::vector<Weighed> in_order(std::vector<Weighed> list) {
     std::swap(list[worst.first].label_kg, list[worst.second].label_kg);
   }
   return list;
-}
-
-/// How well labels explain what runs seem to weigh.
-struct Fit {
-  double scale = 1.0;   ///< common to all: another muscle, an effect
-  double spread = 0.0;  ///< largest logarithm of what else is left
-
-  double misfit() const { return spread + std::abs(std::log(scale)); }
-};
-
-Fit fit_of(const std::vector<Weighed>& list) {
-  Fit fit{.scale = common_ratio(list)};
-  for (const Weighed& one : list)
-    fit.spread = std::max(fit.spread, one.seems_kg > 0.0 && fit.scale > 0.0
-                                          ? std::abs(std::log(one.seems_kg / one.label_kg / fit.scale))
-                                          : std::numeric_limits<double>::infinity());
-  return fit;
 }
 
 bool same_labels(const std::vector<Weighed>& a, const std::vector<Weighed>& b) {

@@ -12,9 +12,11 @@
 #include <sim/data/amount.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
+#include <sim/data/rounded.hpp>
 #include <sim/data/scatter.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
+#include <sim/data/units.hpp>
 
 namespace mckibben::data {
 namespace {
@@ -43,9 +45,6 @@ double typical_step_s(const Series& time_s) {
   for (std::size_t k = 1; k < time_s.size(); ++k) steps.push_back(time_s[k] - time_s[k - 1]);
   return steps.empty() ? 0.0 : upper_median(std::move(steps));
 }
-
-constexpr std::array<std::pair<std::string_view, double>, 6> pressure_units{
-    {{"MPa", 1e6}, {"bar", 1e5}, {"psi", 6894.757}, {"kPa", 1e3}, {"mbar", 1e2}, {"Pa", 1.0}}};
 
 /// The unit in which a number comes nearest to what a supply gives, without going beyond.
 std::string unit_below(double number, double most_Pa) {
@@ -109,10 +108,12 @@ class Plausible {
                                                line("time", meant)),
            Severity::doubtful);
     }
+    const double bridge_s = run().measured->recorded.bridge_s;
+    const double bridged_s = bridge_s > domain::Recorded{}.bridge_s ? bridge_s : 0.0;  // somebody said so
     std::size_t gaps = 0, widest = 1;
     for (std::size_t k = 1; k < time_s.size(); ++k) {
       const double gap_s = time_s[k] - time_s[k - 1];
-      if (gap_s > std::max(limits.gap_steps * step_s, limits.gap_s)) ++gaps;
+      if (gap_s > std::max({limits.gap_steps * step_s, limits.gap_s, bridged_s})) ++gaps;
       if (gap_s > time_s[widest] - time_s[widest - 1]) widest = k;
     }
     if (gaps > 0 && static_cast<double>(gaps) < limits.most_gaps * static_cast<double>(time_s.size()))
@@ -145,6 +146,9 @@ class Plausible {
     const plant::Valve& valve = channel.muscle == 2 ? data_.rig.pair()->opposite.valve : data_.rig.valve;
     const double slack = limits.beyond_span * (valve.span_command - valve.zero_command);
     const Series commands = known(values);
+    if (const auto why = commands.empty() ? std::nullopt : rounded(commands, data_.rig))
+      find(channel.key_in_dataset(), "rounded", fmt::format("{} {}", channel.key_in_dataset(), *why),
+           Severity::doubtful);
     if (commands.empty() || std::ranges::max(commands) <= valve.span_command + slack) return;
     const std::string key = channel.key_in_dataset();
     find(key, "beyond",

@@ -10,6 +10,8 @@
 
 #include <plant/geometry.hpp>
 #include <sim/data/ranges.hpp>
+#include <sim/data/thresholds.hpp>
+#include <sim/data/units.hpp>
 #include <sim/domain/number.hpp>
 
 namespace mckibben::data {
@@ -28,6 +30,13 @@ constexpr std::ptrdiff_t few_numbers = 3;  // numbers out of range that are told
 /// Readings that are missing lie anywhere.
 bool within(const Series& values, double lowest, double highest) {
   return std::none_of(values.begin(), values.end(), [&](double v) { return v < lowest || v > highest; });
+}
+
+/// Of those that are not missing.
+double largest_read(const Series& values) {
+  double most = -infinite;
+  for (const double value : values) most = std::fmax(most, value);
+  return most;
 }
 
 /// The unit of a clock whose rows, read in unit `said`, are so many ticks apart; empty if it is none.
@@ -122,7 +131,7 @@ class Ranges {
     if (current != nullptr && within(*current, lowest_ratio, highest_ratio) &&
         within(values(), rig_.dac.lowest_command, rig_.dac.largest_command)) {
       exchanged_with(plant::command_key(rig_), map_["current"]);
-    } else if (pressure != nullptr && within(*pressure, lowest_ratio, highest_ratio)) {
+    } else if (pressure != nullptr && could_be_exchanged(*pressure, map_["muscle_pressure"], meant)) {
       exchanged_with("muscle_pressure", map_["muscle_pressure"]);
     } else if (within(values(), -infinite, hardly_contracts)) {
       meant.factor = -meant.factor;
@@ -145,13 +154,42 @@ class Ranges {
                                   ? fmt::format(". Or is the rig's rest_length wrong, {:.4g} mm?",
                                                 1e3 * rig_.muscle.rest_length_m)
                                   : "";
-      meant.unit = std::string(meant.unit == "mm" ? "count" : "mm");
+      meant.unit = likely_unit(meant.unit);
       hint = fmt::format(
           "is it in another unit (\"%\", mm, deg, count), or its zero elsewhere? Then write so, "
           "as in columns: {{{}}}{}",
           line_in_unit("contraction", meant), rig);
     }
     look(lowest_ratio, highest_ratio, "what a muscle can do", hint);
+  }
+
+  /// Whether either column would do as the other: as a contraction that is one, and a pressure of the supply.
+  bool could_be_exchanged(const Series& pressure_bar, const ColumnPlace& as_pressure,
+                          const ColumnPlace& as_contraction) const {
+    const auto per_number = [](const std::vector<Unit>& units, const ColumnPlace& place) {
+      const Unit* const unit = find_unit(units, place.unit);
+      return place.factor * (unit != nullptr ? unit->size : 1.0);
+    };
+    const double ratio = per_number(units_of_contraction(rig_), as_contraction);
+    const double bar = per_number(units_of_pressure(), as_pressure) / plant::Pa_per_bar;
+    const double contraction = largest_read(pressure_bar) / bar * ratio,
+                 seems_bar = largest_read(values()) / ratio * bar;
+    return within(pressure_bar, lowest_ratio, infinite) && contraction > hardly_contracts &&
+           contraction < highest_ratio &&
+           seems_bar * plant::Pa_per_bar < thresholds.plausible.beyond_supply * rig_.valve.supply_pressure_Pa;
+  }
+
+  /// In which its numbers would be contractions of this muscle; a guess where they are in none.
+  std::string likely_unit(const std::string& said) const {
+    const std::vector<Unit> units = units_of_contraction(rig_);
+    const Unit* const own = find_unit(units, said);
+    const double most = plant::Braid(rig_.muscle).largest_contraction_ratio();
+    for (const Unit& unit : units) {
+      const double ratio = own != nullptr ? largest_read(values()) / own->size * unit.size : 0.0;
+      if (unit.name != said && ratio > hardly_contracts && ratio < thresholds.column.beyond_reach * most)
+        return unit.name;
+    }
+    return said == "mm" ? "count" : "mm";
   }
 
   void held() {
@@ -201,7 +239,7 @@ class Ranges {
           message += fmt::format(", as in {} of {} rows, which go from {:.6g} to {:.6g}; {}", count,
                                  values.size(), least, most, hint);
       }
-      found_.push_back({at_, row, std::move(message)});
+      found_.push_back({at_, row, std::move(message), count > few_numbers});
       if (count > few_numbers) return;
     }
   }

@@ -33,6 +33,7 @@ struct ReadColumn {
 struct WrongNumber {
   std::size_t column, row;
   std::string message;
+  bool of_column = false;  ///< many numbers, of which this is the first
 };
 
 /// `map` says where the columns came from.

@@ -39,6 +39,7 @@ struct ColumnThresholds {
   double opposite_flow = 0.5;              ///< of all motion, at least, goes the other way than valves' flow
   double least_gauge_slope = 0.5, most_gauge_slope = 2.0;  ///< of a gauge in the right unit
   double halved = 1.12, halved_share = 0.005;  ///< of a factor 2; left of the sum of squares with it
+  double fitting_unit = 0.3;  ///< of a reading's range: what is left, its root, in the unit that is meant
   double other_zero = 0.3;    ///< of the model's range: an offset of a contraction, if little else is left
   double off_at_rest = 0.04;  ///< contraction ratio: no bladder or thread gives so much without pressure
   double hardly_pulls = 0.5;  ///< of the load: a muscle twice as strong would not lift it
@@ -65,7 +66,7 @@ struct LoadThresholds {
   double visible = 0.2;        ///< of a usual load: effects without a load look like less
   double near_grams = 2.0;     ///< factors, round kg written in g, N and pounds; a muscle of half or twice
   double near_newtons = 1.25;  ///< the force comes near to pounds, none to the others
-  double near_pounds = 1.2, sure_pounds = 1.08;
+  double near_pounds = 1.2, sure_pounds = 1.08, near_kg_as_pounds = 1.1;
   double sure_tenth = 1.4;  ///< a tenth is surely one within this factor
 };
 
@@ -115,14 +116,28 @@ struct PlausibleThresholds {
   double lifts_nothing_Pa = 0.15e5, moves_far = 0.02;
   double least_atmosphere_Pa = 0.95e5, most_atmosphere_Pa = 1.06e5;
   double nearer = 1.0 / 3.0;  ///< of the error is left if a given pressure is taken as absolute
-  double rests = 3e-3, resting_share = 0.05;  ///< relative; of the rows
-  double lowest_share = 0.01;                 ///< of the rows: a run's lowest pressure but for noise
-  double stays = 0.2;                         ///< of the readings that are on a grid
-  double coarser = 2.0, coarsest = 0.05;      ///< steps of a reading: times the sensor's; contraction ratio
+  double rests = 3e-3, resting_share = 0.05;    ///< relative; of the rows
+  double lowest_share = 0.01;                   ///< of the rows: a run's lowest pressure but for noise
+  double stays = 0.2;                           ///< of the readings that are on a grid
+  double coarser = 2.0, coarsest = 0.05;        ///< steps of a reading: times the sensor's; contraction ratio
+  double coarser_command = 1.5;                 ///< steps of a command: times the DAC's,
+  std::size_t least_levels = 20;                ///< of which it has so many values,
+  double least_stays = 0.1, most_stays = 0.98;  ///< of its rows repeat the one before,
+  double single_steps = 0.5;                    ///< and at least such a share of its changes is of one
+};
+
+/// Of runs that are to begin at rest.
+struct StartThresholds {
+  double look_s = 0.1;         ///< at the beginning,
+  std::size_t least_rows = 6;  ///< or so many rows
+  double moving_counts = 5.0;  ///< that it moves there, at least,
+  double at_once = 0.5;        ///< of the speed in the first half already: what begins at rest comes later
+  double rig_moves = 0.5;      ///< of the speed, at most, has the rig as described, which begins at rest
 };
 
 struct Thresholds {
   PlausibleThresholds plausible{};
+  StartThresholds start{};
   LookThresholds look{};
   ColumnThresholds column{};
   LoadThresholds load{};

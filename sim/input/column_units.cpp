@@ -172,7 +172,7 @@ void check_numbers(const Table& table, const ColumnMap& map, const plant::Rig& r
   std::vector<data::ReadColumn> columns;
   for (const Table::Column& column : table.columns) columns.push_back({column.name, &column.values});
   for (const data::WrongNumber& wrong : data::check_ranges(columns, map, rig))
-    problems.add(table, table.columns[wrong.column], wrong.row, wrong.message);
+    problems.add(table, table.columns[wrong.column], wrong.row, wrong.message, wrong.of_column);
 }
 
 void check_clock(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {

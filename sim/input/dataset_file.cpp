@@ -151,6 +151,7 @@ Dataset read_dataset(Source source) {
           read_run_file(file, node, dataset, dataset.runs[i], together, problems);
       }
   }
+  problems.join_columns();
   problems.raise();
   dataset.remarks = remarks_of(problems.warnings());
   dataset.inputs = problems.inputs();

@@ -1,5 +1,8 @@
 // Formatting, ordering and throwing of input problems; see the header.
 #include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -50,8 +53,8 @@ std::string to_text(const std::vector<Problem>& problems) {
   return text;
 }
 
-void Problems::error(const Source& source, Place place, std::string message) {
-  add(Severity::error, source, place, std::move(message));
+void Problems::error(const Source& source, Place place, std::string message, bool of_column) {
+  add(Severity::error, source, place, std::move(message), of_column);
 }
 
 void Problems::missing_file(const Source& source, Place place, std::string message) {
@@ -62,16 +65,44 @@ void Problems::warning(const Source& source, Place place, std::string message) {
   add(Severity::warning, source, place, std::move(message));
 }
 
+void Problems::join_columns() {
+  const auto without_numbers = [](std::string text) {
+    constexpr std::string_view of_numbers = "0123456789.-+e";
+    std::erase_if(text, [&](char c) { return of_numbers.find(c) != std::string_view::npos; });
+    return text;
+  };
+  struct Alike {
+    std::size_t first;
+    std::vector<std::string> more;
+  };
+  std::map<std::string, Alike> columns;
+  std::vector<Problem> kept;
+  for (Problem& problem : list_) {
+    const auto [found, is_new] = columns.try_emplace(
+        problem.of_column ? without_numbers(problem.message) : "", Alike{kept.size(), {}});
+    if (problem.of_column && !is_new)
+      found->second.more.push_back(std::filesystem::path(problem.file).filename().string());
+    else
+      kept.push_back(std::move(problem));
+  }
+  for (const auto& [message, alike] : columns)
+    if (const auto& more = alike.more; !more.empty())
+      kept[alike.first].message += fmt::format("; the same in {} more: {}{}", more.size(), more.front(),
+                                               more.size() > 1 ? " to " + more.back() : "");
+  list_ = std::move(kept);
+}
+
 void Problems::adopt(const std::vector<Problem>& found) {
   for (const Problem& problem : found) add(problem);
 }
 
-void Problems::add(Severity severity, const Source& source, Place place, std::string message) {
+void Problems::add(Severity severity, const Source& source, Place place, std::string message,
+                   bool of_column) {
   std::string_view line = source.line(place.line);
   if (line.size() > longest_line_shown || printable(line) != line) line = {};
   place.line = source.line_in_file(place.line);
   message = printable(shortened(message, longest_message));
-  add({severity, source.name(), place, std::move(message), std::string(line)});
+  add({severity, source.name(), place, std::move(message), std::string(line), of_column});
 }
 
 void Problems::add(Problem problem) {

@@ -29,6 +29,7 @@ struct Problem {
   Place place;
   std::string message;
   std::string source_line;  ///< empty if too long to show
+  bool of_column = false;   ///< of a column as a whole, so that other files of its kind have it as well
 };
 
 /// `FILE:LINE:COL`, or `FILE` where there is no place.
@@ -59,10 +60,12 @@ class Problems {
   void opened(const Source& source) { inputs_.push_back({source.name(), source.sha256()}); }
   const std::vector<InputFile>& inputs() const { return inputs_; }
 
-  void error(const Source& source, Place place, std::string message);
+  void error(const Source& source, Place place, std::string message, bool of_column = false);
   /// A file named in `source` that is not there.
   void missing_file(const Source& source, Place place, std::string message);
   void warning(const Source& source, Place place, std::string message);
+  /// Of columns that are wrong alike in several files, the first problem says in which.
+  void join_columns();
   /// Takes over what was found while another file was read.
   void adopt(const std::vector<Problem>& found);
 
@@ -76,7 +79,7 @@ class Problems {
   void raise() const;
 
  private:
-  void add(Severity severity, const Source& source, Place place, std::string message);
+  void add(Severity severity, const Source& source, Place place, std::string message, bool of_column = false);
   void add(Problem problem);
 
   std::vector<Problem> list_;

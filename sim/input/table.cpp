@@ -53,19 +53,19 @@ TableProblems::~TableProblems() {
     problems_.error(source_, last_, fmt::format("and {} more problems in this file", count_ - most_problems));
 }
 
-void TableProblems::add(Place place, std::string message) {
-  if (++count_ <= most_problems) problems_.error(source_, place, std::move(message));
+void TableProblems::add(Place place, std::string message, bool of_column) {
+  if (++count_ <= most_problems) problems_.error(source_, place, std::move(message), of_column);
   last_ = place;
 }
 
 void TableProblems::add(const Table& table, const Table::Column& column, std::size_t row,
-                        const std::string& message) {
+                        const std::string& message, bool of_column) {
   if (table.lines.empty())
-    add(nowhere, fmt::format("{}({}): {}", column.in_file, row + 1, message));
+    add(nowhere, fmt::format("{}({}): {}", column.in_file, row + 1, message), of_column);
   else if (column.in_file == column.name)
-    add(table.place(source_, column, row), message);
+    add(table.place(source_, column, row), message, of_column);
   else
-    add(table.place(source_, column, row), fmt::format("{}: {}", column.in_file, message));
+    add(table.place(source_, column, row), fmt::format("{}: {}", column.in_file, message), of_column);
 }
 
 bool check_text(const Source& source, TableProblems& problems) {

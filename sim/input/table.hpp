@@ -74,9 +74,10 @@ class TableProblems {
   /// Says how many were not shown.
   ~TableProblems();
 
-  void add(Place place, std::string message);
+  void add(Place place, std::string message, bool of_column = false);
   /// A problem with one number: shown at its place, or with the name and number that it has in the file.
-  void add(const Table& table, const Table::Column& column, std::size_t row, const std::string& message);
+  void add(const Table& table, const Table::Column& column, std::size_t row, const std::string& message,
+           bool of_column = false);
   /// How something was read that could be read in another way.
   void note(Place place, std::string message) { problems_.warning(source_, place, std::move(message)); }
   std::size_t count() const { return count_; }

@@ -10,12 +10,15 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/amount.hpp>
+#include <sim/data/gains.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
 #include <sim/data/stamps.hpp>
 #include <sim/data/thresholds.hpp>
+#include <sim/data/units.hpp>
 #include <sim/run/batch.hpp>
 #include <sim/run/look.hpp>
 
@@ -120,6 +123,44 @@ void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>
                       .severity = data::Severity::doubtful});
 }
 
+namespace {
+
+/// A reading of those runs against the rig's.
+data::Compared compared(const domain::Dataset& data, const std::vector<ReplayedRun>& replayed,
+                        const std::string& reading, const std::vector<std::size_t>& runs) {
+  const std::vector<data::Expected> expected = expected_of(data, replayed);
+  data::Compared rows;
+  for (const std::size_t i : runs) {
+    const domain::Run& run = data.runs[i];
+    const auto is_reading = [&](domain::Beside which) {
+      return data::told(which, data.rig.pair() != nullptr).first == reading && run.beside(which) != nullptr;
+    };
+    const auto beside = std::ranges::find_if(domain::besides, is_reading);
+    if (beside != std::end(domain::besides))
+      rows.add(i, *run.beside(*beside), expected[i].beside(*beside),
+               [&](std::size_t k) { return run.is_missing(*beside, k); });
+    else
+      rows.add(i, run.judged(), expected[i].judged,
+               [&](std::size_t k) { return !run.missing.empty() && run.missing[k]; });
+  }
+  return rows;
+}
+
+/// What its column would be in the unit that fits the rig; empty if none does.
+std::string in_another_unit(const data::Compared& rows, const std::string& reading, domain::ColumnPlace place,
+                            const plant::Rig& rig) {
+  const auto units = reading == "contraction"                        ? data::units_of_contraction(rig)
+                     : reading.find("pressure") != std::string::npos ? data::units_of_pressure()
+                                                                     : std::vector<data::Unit>{};
+  const auto fits = data::unit_that_fits(rows, place.unit, units);
+  if (!fits) return "";
+  place.unit = fits->name;
+  return fmt::format("; in {} it would be {:.0f} %: columns: {{{}}}", fits->name, 100.0 * fits->left,
+                     data::line_in_unit(reading, place));
+}
+
+}  // namespace
+
 void add_far_off(const domain::Dataset& data, const std::vector<ReplayedRun>& replayed,
                  std::vector<data::Finding>& findings) {
   constexpr double most = 1.0 / 3.0;  // of what was read in all runs
@@ -156,16 +197,18 @@ void add_far_off(const domain::Dataset& data, const std::vector<ReplayedRun>& re
     if (far.empty()) continue;
     const auto columns = data::with_our_names(domain::merged(data.columns, data.runs[far.front()].columns),
                                               data.rig.command_unit());
+    const data::Compared rows = compared(data, replayed, reading, far);
     const bool by_length = reading == "contraction" && data::divided_by_length(columns[reading]);
     findings.push_back({.quantity = reading,
                         .runs = std::move(far),
                         .message = fmt::format("{}: rmse is up to {:.0f} % of what was read: before "
                                                "diagnose, look at the column's zero, factor "
-                                               "and unit, at the loads and at the rig{}",
+                                               "and unit, at the loads and at the rig{}{}",
                                                reading, 100.0 * worst_of_far / read,
                                                by_length ? fmt::format(", also at its rest_length, {:.4g} mm",
                                                                        1e3 * data.rig.muscle.rest_length_m)
-                                                         : ""),
+                                                         : "",
+                                               in_another_unit(rows, reading, columns[reading], data.rig)),
                         .severity = data::Severity::doubtful});
   }
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <sim/data/plausible.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/look.hpp>
 
@@ -160,6 +161,51 @@ TEST(Sanity, OtherUnitsAreNamed) {
   EXPECT_TRUE(holds(says(inches), "{contraction: {column: rope, unit: in, factor: 1}}"));
 }
 
+TEST(Sanity, AGaugeInAnotherUnitIsToldAlsoWhereTheRigsPressureIsOff) {
+  auto data = sound();
+  data.columns["muscle_pressure"] = {"p", "psi"};
+  for (domain::Run& run : data.runs)
+    for (double& pressure_Pa : *run.muscle_pressure_Pa) pressure_Pa *= 0.052;
+  const auto list = said(data);
+  ASSERT_FALSE(list.empty());
+  EXPECT_TRUE(holds(list.front(),
+                    "is it in bar? Then columns: {muscle_pressure: {column: p, unit: bar, factor: 1}}"));
+}
+
+TEST(Sanity, AnAtmosphereIsToldByWhatTheGaugeReadsAtRest) {
+  const auto told = [](double gain, double zero_Pa) {
+    auto data = sound();
+    for (domain::Run& run : data.runs)
+      for (double& pressure_Pa : *run.muscle_pressure_Pa) pressure_Pa = gain * pressure_Pa + zero_Pa;
+    return says(data);
+  };
+  EXPECT_TRUE(holds(told(1.0, -101325.0), "error", "one atmosphere too low; ", "zero: -1.01325}}"));
+  EXPECT_TRUE(
+      holds(told(1.4, 0.8e5), "warning", "too high where the rig is at rest, ", "bar, in the middle"));
+}
+
+TEST(Sanity, ARunThatBeginsOnItsWayIsToldWithItsSpeed) {
+  auto data = sound();
+  domain::Run& run = data.runs[2];
+  std::ptrdiff_t rows = 0;  // where it is quickest
+  const auto rise = [at = run.contraction_ratio.begin()](std::ptrdiff_t k) { return at[k + 9] - at[k]; };
+  for (std::ptrdiff_t k = 0; k < 200; ++k) rows = rise(k) > rise(rows) ? k : rows;
+  for (auto* column : {&run.contraction_ratio, &run.current_mA, &*run.muscle_pressure_Pa})
+    column->erase(column->begin(), column->begin() + rows);
+  EXPECT_TRUE(holds(says(data), "run r03: begins on its way, r03 at ", " mm/s: ", "write start: moving"));
+}
+
+TEST(Sanity, ACommandThatWasRoundedIsTold) {
+  EXPECT_TRUE(data::implausible(sound()).empty());
+  auto data = sound();
+  for (domain::Run& run : data.runs)
+    for (double& current_mA : run.current_mA) current_mA = 0.25 * std::round(current_mA / 0.25);
+  const auto found = data::implausible(data);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(holds(found.front().message, "is rounded to 0.25 mA, and the rig's DAC has steps of 0.0049 mA",
+                    "dac: {bits: 6}"));
+}
+
 TEST(Sanity, AWrongRestLengthIsAmongTheSuspectsOfALengthThatWasRead) {
   for (const double factor : {2.0, 5.0, 10.0}) {
     auto data = scaled(1.0 / factor);
@@ -242,6 +288,7 @@ TEST(Sanity, AllLoadsInAnotherUnitAreSaid) {
   EXPECT_TRUE(expect(sound(), 1e-3, "these look like kg that are written in g: write kg"));
   EXPECT_TRUE(expect(sound(), 9.80665, "these look like N, not kg: write the mass, N / 9.81"));
   expect(sound(), 2.20462, "these look like pounds, not kg: write lb");
+  EXPECT_FALSE(expect(sound(), 1.0 / 2.20462, "these look like kg that are written in lb: write kg"));
 }
 
 TEST(Sanity, ALoadThatIsNeverLiftedIsSaid) {

@@ -1,0 +1,34 @@
+// See the header.
+#include <algorithm>
+
+#include <plant/constants.hpp>
+#include <plant/instruments.hpp>
+#include <sim/data/units.hpp>
+
+namespace mckibben::data {
+
+std::vector<Unit> units_of_contraction(const plant::Rig& rig) {
+  const double metre = 1.0 / rig.muscle.rest_length_m, radian = rig.joint.wheel_radius_m * metre;
+  return {{"mm", 1e-3 * metre},
+          {"cm", 1e-2 * metre},
+          {"m", metre},
+          {"in", 0.0254 * metre},
+          {"1", 1.0},
+          {"%", 0.01},
+          {"count", plant::count_height_m(rig) * metre},
+          {"deg", plant::degree_rad * radian},
+          {"rad", radian}};
+}
+
+std::vector<Unit> units_of_pressure() {
+  std::vector<Unit> units;
+  for (const auto& [name, size] : pressure_units) units.push_back({std::string(name), size});
+  return units;
+}
+
+const Unit* find_unit(const std::vector<Unit>& units, std::string_view name) {
+  const auto found = std::ranges::find(units, name, &Unit::name);
+  return found != units.end() ? &*found : nullptr;
+}
+
+}  // namespace mckibben::data
