@@ -212,13 +212,15 @@ std::string line_of(const bench::Row& row, const controllers::Knowledge& known, 
 /// What goes with the rows: they are a data set of a rig with all that the scenario's has. Ticks begin late:
 /// what counts is when each reading was taken and each command went out.
 template <class Folder>
-void describe(Folder& folder, const Scenario& scenario, bool gauge) {
+void describe(Folder& folder, const Scenario& scenario, bool gauge, double longest_silence_s) {
   Json dataset{{"schema", "mckibben-dataset/1"}, {"rig", "rig.yaml"}};
   dataset["columns"]["command"] = {
       {"column", column_of(scenario)}, {"unit", name_of(scenario.rig.command_unit())}, {"time", "sent_s"}};
   dataset["columns"]["contraction"] = {{"column", "counts"}, {"unit", "count"}, {"time", "read_s"}};
   if (gauge)
     dataset["columns"]["muscle_pressure"] = {{"column", gauge_column}, {"unit", "bar"}, {"time", "read_s"}};
+  if (longest_silence_s > domain::Recorded{}.bridge_s)  // the device holds its output meanwhile
+    dataset["bridge"] = fmt::format("{} s", run::tidy_s(longest_silence_s));
   dataset["runs"] = Json::array({Json{{"id", "bench"},
                                       {"file", "bench.csv"},
                                       {"load", domain::write_number(scenario.loads_kg.front()) + " kg"}}});
@@ -309,9 +311,9 @@ int on_bench(const ControlOptions& options, const Scenario& scenario, const run:
   }
   const bool gauge = device->has_gauge();
   output::Unfinished rows(job.where(), "bench.csv", head_of(scenario, gauge), say);
-  describe(rows, scenario, gauge);
-  plan.record = [&](const bench::Row& row) { rows.append(line_of(row, known, gauge)); };
   plan.longest_silence_s = (options.most_missed_ticks + silent_ticks) * scenario.rig.tick_s;
+  describe(rows, scenario, gauge, plan.longest_silence_s);
+  plan.record = [&](const bench::Row& row) { rows.append(line_of(row, known, gauge)); };
   bench::RealClock clock;
   const bench::Recorded recorded = bench::drive(*device, std::move(controller), plan, clock);
   device.reset();
@@ -320,7 +322,7 @@ int on_bench(const ControlOptions& options, const Scenario& scenario, const run:
       std::string csv = head_of(scenario, gauge);
       for (const bench::Row& row : recorded.rows) csv += line_of(row, known, gauge);
       job.write("bench.csv", csv);
-      describe(job, scenario, gauge);
+      describe(job, scenario, gauge, plan.longest_silence_s);
     }
     const std::string document = document_of(scenario, options, recorded), text = text_of(scenario, recorded);
     job.write("control.json", document);

@@ -124,6 +124,26 @@ TEST(Control, AReplayKnowsWhenEachCommandWentOut) {
   EXPECT_LT(gap.at("rmse").get<double>(), 0.03) << "mm, however busy the machine is";
 }
 
+// A machine that is away for half a second: the device holds its output meanwhile.
+TEST(Control, MissedTicksCanBeRead) {
+  const Scratch scratch;
+  std::string text(on_bench);
+  text.replace(text.find("duration: 0.6 s"), 15, "duration: 2.4 s");
+  write_text(scratch / "b.yaml", text);
+  const Said said = shell(
+      "$M control b.yaml --most-missed 1000 & "
+      "until [ $(cat out/b-control.unfinished/bench.csv 2>/dev/null | wc -l) -gt 30 ]; do sleep 0.05; done; "
+      "kill -STOP $!; sleep 0.5; kill -CONT $!; wait $!",
+      scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const Said checked = mckibben("check out/b-control", scratch);
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_TRUE(lacks(checked.err, "no rows from"));
+  const Said replayed = mckibben("replay out/b-control --json", scratch);
+  ASSERT_EQ(replayed.status, 0) << replayed.err;
+  EXPECT_LT(Json::parse(replayed.out).at("runs").at(0).at("gaps").at(0).at("rmse").get<double>(), 0.03);
+}
+
 TEST(Control, LeavesOutNoEffectOfItsRig) {
   const Scratch scratch;
   std::string text(on_bench);
