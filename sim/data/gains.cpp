@@ -194,6 +194,8 @@ std::optional<FittingUnit> unit_that_fits(const Compared& reading, std::string_v
   std::optional<FittingUnit> best;
   for (const Unit& unit : units) {
     const double factor = unit.size / own->size;
+    const double moves = factor * range(reading.measured) / range(reading.model);
+    if (!(std::abs(std::log(moves)) < std::log(of_gains.near_one))) continue;
     double squares = 0.0;
     for (std::size_t k = 0; k < reading.model.size(); ++k)
       squares += std::pow(factor * reading.measured[k] - reading.model[k], 2);

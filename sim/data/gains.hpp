@@ -54,7 +54,7 @@ std::optional<Finding> reversed_flow(const domain::Dataset& data);
 std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, domain::ColumnPlace place,
                                   const std::vector<Unit>& units);
 
-/// Another unit in which little is left between readings and model, and the root of what is left, of the
+/// Another unit in which readings move as far as the model and little is left between them: its root, of the
 /// readings' range.
 struct FittingUnit {
   std::string name;
