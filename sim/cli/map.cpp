@@ -137,9 +137,11 @@ int map_errors(const MapOptions& options) {
       with_progress(name, [&](const auto& hook) { return run::error_maps(plan, options.threads, hook); });
   if (maps.interrupted) tell_interrupted(job, maps);
 
+  std::vector<double> loads_kg;
+  for (const auto& load : maps.loads) loads_kg.push_back(load.load_kg);
   for (const auto& load : maps.loads)
     if (load.failure.empty())
-      job.write(fmt::format("map_{}kg.svg", domain::write_number(load.load_kg)),
+      job.write(fmt::format("map_{}kg.svg", domain::kg_in_name(load.load_kg, loads_kg)),
                 output::heat_map_svg(plan, maps, load));
   const std::string document = output::json_of(plan, maps, files);
   const std::string table = output::table_of(plan, maps);

@@ -1,4 +1,5 @@
 // std::to_chars; see the header.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -21,6 +22,17 @@ std::string write_number(double value) {
 std::string write_kg(double kg) {
   constexpr int written = 9;
   return write_number(significant(kg, written));
+}
+
+std::string kg_in_name(double kg, const std::vector<double>& others) {
+  constexpr int least = 5, most = 9;
+  for (int digits = least; digits <= most; ++digits) {
+    const double said = significant(kg, digits);
+    if (std::ranges::none_of(others,
+                             [&](double other) { return other != kg && significant(other, digits) == said; }))
+      return write_number(said);
+  }
+  return write_number(kg);
 }
 
 double significant(double value, int digits) {

@@ -266,7 +266,7 @@ inline bool is_given(const controllers::Settings& settings) {
 inline std::string name_of_run(const Scenario& scenario, std::size_t target, double load_kg,
                                const std::string& controller) {
   const std::string of_target = scenario.targets.empty() ? "" : scenario.targets[target].name + '_';
-  return of_target + write_number(load_kg) + "kg_" + controller;
+  return of_target + kg_in_name(load_kg, scenario.loads_kg) + "kg_" + controller;
 }
 
 }  // namespace mckibben::domain

@@ -47,7 +47,7 @@ struct Axis {
 };
 
 std::string name_of(const run::RobustRow& row) {
-  return fmt::format("{} kg, {}", domain::write_number(row.load_kg), row.controller);
+  return fmt::format("{} kg, {}", domain::write_kg(row.load_kg), row.controller);
 }
 
 std::string drawn_row(const run::RobustRow& row, double nominal, std::size_t style, const Axis& axis,

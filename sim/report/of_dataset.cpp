@@ -106,7 +106,7 @@ void add_parts(Contents& contents, const domain::Campaign& campaign, const std::
   const std::size_t parts = pair ? campaign.currents.size() : campaign.loads_kg.size();
   for (std::size_t i = 0; i < parts; ++i) {
     const double load_kg = pair ? 0.0 : campaign.loads_kg[i];
-    Group group{.name = pair ? campaign.currents[i].name : domain::write_number(load_kg) + " kg",
+    Group group{.name = pair ? campaign.currents[i].name : domain::write_kg(load_kg) + " kg",
                 .load_kg = load_kg};
     Counted part;
     for (const run::EndedRun& run : ended) {

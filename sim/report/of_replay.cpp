@@ -77,7 +77,7 @@ std::string gaps_table(const domain::Dataset& dataset, const std::vector<run::Re
     const std::string link = drawn(run) ? link_html(group, run.id) : escaped(run.id);
     const std::string head = fmt::format("<tr{}><th scope='row'>{}</th><td>{}</td>",
                                          drawn(run) ? fmt::format(" data-group='{}'", group) : "", link,
-                                         run.load_kg > 0.0 ? domain::write_number(run.load_kg) : "-");
+                                         run.load_kg > 0.0 ? domain::write_kg(run.load_kg) : "-");
     if (run.gaps.empty())
       html += head +
               fmt::format("<td colspan='5'>{}</td></tr>\n", run.failure.empty() ? "no reading" : "no result");
@@ -151,11 +151,10 @@ Contents drawn_of(const domain::Dataset& dataset, const std::vector<run::Replaye
     const run::ReplayedRun& run = runs[i];
     if (!drawn(run)) continue;
     const domain::Run& measured_run = dataset.runs[i];
-    Group group{.name = run.load_kg > 0.0
-                            ? fmt::format("{}, {} kg", run.id, domain::write_number(run.load_kg))
-                            : run.id,
-                .load_kg = run.load_kg,
-                .ticks = run.recording.samples.size()};
+    Group group{
+        .name = run.load_kg > 0.0 ? fmt::format("{}, {} kg", run.id, domain::write_kg(run.load_kg)) : run.id,
+        .load_kg = run.load_kg,
+        .ticks = run.recording.samples.size()};
     if (measured_run.measured)
       for (const run::Sample& row : run.recording.samples) group.time_s.push_back(row.time_s);
     if (run.load_kg > 0.0)

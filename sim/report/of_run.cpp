@@ -66,8 +66,8 @@ std::string sentence_of_given(const Scenario& scenario, const Comparison& compar
     if (run.controller != controller || !run.failure.empty() || run.recording.samples.empty()) continue;
     const auto ratio = [](const plant::Sample& sample) { return sample.state.joint.contraction_ratio; };
     const auto [low, high] = std::ranges::minmax(run.recording.samples | std::views::transform(ratio));
-    text += fmt::format("{} {} kg by {}", text.empty() ? ": it moves" : ",",
-                        domain::write_number(run.load_kg), full_length_html(high - low, scenario.rig, 1));
+    text += fmt::format("{} {} kg by {}", text.empty() ? ": it moves" : ",", domain::write_kg(run.load_kg),
+                        full_length_html(high - low, scenario.rig, 1));
   }
   return fmt::format(" {} follows no target{}.", escaped(controller), text);
 }
@@ -120,7 +120,7 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
 }
 
 std::string name_of(const Scenario& scenario, const run::Task& task) {
-  const std::string load = domain::write_number(task.load_kg) + " kg";
+  const std::string load = domain::write_kg(task.load_kg) + " kg";
   if (!of_pair(scenario)) return load;
   const std::string& target = scenario.targets[task.target].name;
   return scenario.loads_kg.size() == 1 && task.load_kg == 0.0

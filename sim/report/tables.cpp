@@ -63,7 +63,7 @@ std::string by_load_html(const std::vector<Judged>& runs, const plant::Rig& rig)
                      [](const Judged* a, const Judged* b) { return a->rmse < b->rmse; });
     const Judged& worst = *of_load.back();
     html += fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        domain::write_number(load_kg), of_load.size(), length_html(median(of_load), rig),
+                        domain::write_kg(load_kg), of_load.size(), length_html(median(of_load), rig),
                         length_html(worst.rmse, rig), link_html(worst.group, worst.id));
   }
   return html + "</tbody></table>\n";

@@ -40,6 +40,14 @@ TEST(Number, WritesWhatReadsBackExactly) {
   }
 }
 
+TEST(Number, AMassInANameIsShortAndApartFromOthers) {
+  const double five_lb = 5.0 * domain::pound_kg;  // 2.2679618500000003
+  EXPECT_EQ(domain::kg_in_name(five_lb, {five_lb, 11.138}), "2.268");
+  EXPECT_EQ(domain::kg_in_name(11.138, {five_lb, 11.138}), "11.138");
+  EXPECT_EQ(domain::kg_in_name(11.13801, {11.13801, 11.138}), "11.13801");
+  EXPECT_EQ(domain::kg_in_name(11.138, {11.138 + 1e-14, 11.138}), "11.138");
+}
+
 TEST(Number, IsRoundedToDigitsThatCount) {
   EXPECT_EQ(domain::significant(168.4, 2), 170.0);
   EXPECT_EQ(domain::significant(-0.004567, 2), -0.0046);
