@@ -74,11 +74,10 @@ std::vector<Compared> compared(const domain::Run& run, const plant::Rig& rig, co
     const auto value = [signal = channel.signal, muscle = channel.muscle](const Sample& row) {
       return signal->value(row, muscle);
     };
-    if (signal == "muscle_pressure")
-      return [value, effects = channel.muscle == 2 ? rig.pair()->opposite.effects : rig.effects](
-                 const Sample& row) { return effects.shown_Pa(value(row)); };
-    // A cord cannot push: a load cell on one that hangs through reads nothing.
-    if (signal == "force") return [value](const Sample& row) { return std::max(value(row), 0.0); };
+    for (const auto& [sensed, key] : names(plant::Sensed{}))
+      if (signal == key)
+        return
+            [sensed, muscle = channel.muscle](const Sample& row) { return row.side(muscle).shown[sensed]; };
     return value;
   };
   std::vector<Compared> all;

@@ -8,6 +8,7 @@
 #include <controllers/settings.hpp>
 #include <plant/plant.hpp>
 #include <sim/input/calibration_file.hpp>
+#include <sim/run/gaps.hpp>
 #include <sim/run/reachable.hpp>
 #include <sim/run/rig_model.hpp>
 #include <sim/run/simulate.hpp>
@@ -259,6 +260,31 @@ TEST(Simulate, ASlowGaugeShowsAReadingWithItsNoiseUntilTheNext) {
   const auto shown_Pa = [&](std::size_t k) { return rows[k].shown[plant::Sensed::muscle_pressure]; };
   for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_NEAR(shown_Pa(k), shown_Pa(k - k % 5), 1e-6) << k;
   EXPECT_NE(shown_Pa(0), shown_Pa(5));
+}
+
+// What was recorded by it is compared with what it would show, not with the pressure of now.
+TEST(Simulate, AReplayComparesASlowGaugeWithWhatItWouldShow) {
+  RunPlan s = plan(11.138, 100);
+  plant::Sensor slow = plant::gauge();
+  slow.rate_Hz = 0.1 / s.rig.tick_s;
+  slow.delay_s = 0.05;
+  s.rig.sensors.put(slow);
+  controllers::TriangleCurrent fast = slow_triangle();
+  fast.speed_mA_per_s = 10.0;
+  const Recording recording = ride(s, fast);
+  domain::Run run;
+  run.muscle_pressure_Pa.emplace();
+  double most_Pa = 0.0;
+  for (const Sample& row : recording.samples) {
+    run.contraction_ratio.push_back(row.read_ratio);
+    run.muscle_pressure_Pa->push_back(row.shown[plant::Sensed::muscle_pressure]);
+    most_Pa = std::max(most_Pa, std::abs(run.muscle_pressure_Pa->back() - row.state.side.muscle_pressure_Pa));
+  }
+  EXPECT_GT(most_Pa, 1e3);
+  const auto gaps = gaps_of(run, s.rig, recording);
+  ASSERT_EQ(gaps.size(), 2u);
+  EXPECT_EQ(gaps[1].reading, "muscle_pressure");
+  EXPECT_LT(gaps[1].largest, 1e-9);
 }
 
 // One draw of it, held while the rig settles, would be an offset of the current.
