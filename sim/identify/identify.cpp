@@ -158,11 +158,13 @@ void Search::try_simpler_laws() {
   }
 }
 
-/// Where the bench alone is wrong, the rig may be as described.
+/// Where the bench is wrong, the rig may be as described: effects, too, may make up for what the fit on the
+/// way to a large fault left.
 void Search::describe_bench() {
-  const Names names = dictionary_.names(here_->point);
-  if (names.empty() || here_->has_effects()) return;
   Point point = here_->point;
+  std::erase_if(point.effects,
+                [&](const Added& one) { return dictionary_.entries[one.entry].bench == nullptr; });
+  if (point.terms != Terms::none || dictionary_.names(point).empty()) return;
   point.z.resize(0);
   Model m(problem_, std::move(point), here_->error);
   m.look();
