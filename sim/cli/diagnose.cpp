@@ -1,4 +1,5 @@
 // The verb `diagnose`: what a rig lacks, found in measured runs.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -6,12 +7,14 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/input/dataset_file.hpp>
+#include <sim/input/finding_places.hpp>
 #include <sim/output/diagnosis_results.hpp>
 #include <sim/output/diagnosis_words.hpp>
 #include <sim/report/report.hpp>
@@ -38,12 +41,29 @@ void write_plan(const std::string& plan, const domain::Dataset& data, const diag
   if (plan.empty()) return;
   if (!found.next_experiment) {
     const std::string instead = output::what_next(found);
-    fmt::print(stderr, "mckibben: no plan written: none of the candidate experiments would help{}{}\n",
-               instead.empty() ? "" : ". ", instead);
+    fmt::print(stderr, "mckibben: no plan written. {}\n",
+               instead.empty() ? "No two models are left that a measurement could distinguish." : instead);
     return;
   }
   output::write_whole(std::filesystem::absolute(plan), output::plan_yaml(data, found));
   fmt::print(stderr, "plan in {}\n", plan);
+}
+
+/// What is to be written in the data set first, or a replay shows the fault again; empty if nothing is.
+std::string what_mends(const domain::Dataset& data, const diagnose::Diagnosis& found) {
+  std::vector<std::string> lines;
+  for (const diagnose::BenchFault& fault : found.bench) {
+    if (fault.write.empty()) continue;
+    const auto run = std::ranges::find(data.runs, fault.runs.front(), &domain::Run::id);
+    if (!fault.of_loads() || fault.runs.size() != 1 || data.parts_of_a_run)
+      return fmt::format("write in {} what the table has for it", data.path.string());
+    const auto index = static_cast<std::size_t>(run - data.runs.begin());
+    const auto at =
+        input::problems_of(data.path, {{.quantity = "load", .runs = {index}, .message = ""}}).front().place;
+    lines.push_back(fmt::format("{} in line {}", fault.write, at.line));
+  }
+  if (lines.empty()) return "";
+  return fmt::format("write in {} {}", data.path.string(), fmt::join(lines, ", "));
 }
 
 struct DiagnoseOptions : Options {
@@ -96,7 +116,8 @@ int diagnose_dataset(const DiagnoseOptions& options) {
   const int status = job.finish({document, output::table_of(data, diagnosis) + files + go_on}, done,
                                 job.has_folder() && diagnosis.ended == diagnose::Ended::no
                                     ? fmt::format("replay {} --rig {}", options.dataset, file("rig.yaml"))
-                                    : "");
+                                    : "",
+                                what_mends(data, diagnosis));
   write_plan(options.plan, data, diagnosis);
   return status;
 }

@@ -78,14 +78,14 @@ void Job::write(const std::string& name, const std::string& content) {
   if (folder_) folder_->write(name, content);
 }
 
-int Job::finish(const Printable& result, int status, const std::string& next) {
+int Job::finish(const Printable& result, int status, const std::string& next, const std::string& first) {
   if (folder_) {
     folder_->publish();
     fmt::print(stderr, "results in {}\n", where_.string());
   }
   print(options_, result);
   if (interruption_.empty() && status == done && !next.empty() && !options_.json)
-    fmt::print(stderr, "next: mckibben {}\n", next);
+    fmt::print(stderr, "next: {}mckibben {}\n", first.empty() ? "" : first + ", then ", next);
   if (interruption_.empty()) return status;
   say(interruption_);
   return ExitStatus::interrupted;

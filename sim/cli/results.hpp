@@ -80,9 +80,10 @@ class Job {
   const std::filesystem::path& where() const { return where_; }
 
   /// Lets the folder take its place, says so, prints, and returns the exit status: `status`, or that of an
-  /// interruption. `next`: the command with which people go on, without the program's name; said where all
-  /// went well. Throws output::CannotWrite.
-  int finish(const Printable& result, int status, const std::string& next = "");
+  /// interruption. `next`: the command with which people go on, without the program's name; `first`: what
+  /// they do before it. Said where all went well. Throws output::CannotWrite.
+  int finish(const Printable& result, int status, const std::string& next = "",
+             const std::string& first = "");
 
  private:
   const Options& options_;

@@ -305,14 +305,14 @@ std::optional<Alone> alone(const std::vector<Weighed>& list, bool exchangeable) 
 
 Finding wrong_label(const domain::Dataset& data, const Alone& found) {
   const auto& [run, label_kg, seems_kg] = found.run;
-  return {.quantity = "load",
-          .runs = {run},
-          .message = fmt::format("{} ({} kg) moves like {:.3g} kg, and the other runs agree with their "
-                                 "labels: is this label wrong? Then load: {:.3g} kg; or was its encoder set "
-                                 "to zero elsewhere?",
-                                 data.runs[run].id, domain::write_kg(label_kg), seems_kg,
-                                 seems_kg / found.others.scale),
-          .severity = Severity::doubtful};
+  return {
+      .quantity = "load",
+      .runs = {run},
+      .message = fmt::format("{0} ({1} kg) moves like {2:.3g} kg, compared with the other runs, which agree "
+                             "with their labels: is this label wrong? Then load: {2:.3g} kg; or was its "
+                             "encoder set to zero elsewhere?",
+                             data.runs[run].id, domain::write_kg(label_kg), seems_kg / found.others.scale),
+      .severity = Severity::doubtful};
 }
 
 /// Whether each run that got another label seems to weigh it.
@@ -337,6 +337,7 @@ std::optional<Finding> wrong_labels(const domain::Dataset& data, const std::vect
     return wrong_label(data, *one);
   if (!exchangeable) return std::nullopt;
   Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
+  const double scale = all_agree ? common_ratio(ordered) : 1.0;
   std::string written, seems;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const double label_kg = list[i].label_kg, other_kg = ordered[i].label_kg;
@@ -346,8 +347,8 @@ std::optional<Finding> wrong_labels(const domain::Dataset& data, const std::vect
     const std::string& id = data.runs[list[i].run].id;
     const char* const comma = written.empty() ? "" : ", ";
     written += fmt::format("{}load: {} kg for {}", comma, domain::write_kg(other_kg), id);
-    seems +=
-        fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, domain::write_kg(label_kg), list[i].seems_kg);
+    seems += fmt::format("{}{} ({} kg) like {:.1f} kg", comma, id, domain::write_kg(label_kg),
+                         list[i].seems_kg / scale);
   }
   found.message =
       fmt::format("at equal pressure a heavier load contracts less, but {}: {}", seems,

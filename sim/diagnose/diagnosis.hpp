@@ -191,7 +191,8 @@ constexpr auto names(Explanation::Kind) {
 struct RunGap {
   std::string id;
   double load_kg = 0.0;
-  bool held_out = false, left_out = false;  ///< left out: its data or label are in doubt
+  std::optional<double> estimated_load_kg{};  ///< where its label is a fault of the bench
+  bool held_out = false, left_out = false;    ///< left out: its data or label are in doubt
   double nominal_rmse = 0.0, recalibrated_rmse = 0.0, corrected_rmse = 0.0;
   std::vector<double> measured{}, nominal{}, recalibrated{}, corrected{};  ///< judged reading, each row
 };
@@ -210,10 +211,13 @@ struct FaultyRun {
 struct BenchFault {
   std::string name;                 ///< load_label, loads_differ, zeros_differ, gains_differ, reading_clock
   std::vector<std::string> runs{};  ///< that have it
-  FittedNumber size{};  ///< a load: what to add to it, or its factor less 1; a reading: what it is
-                        ///< too high by, or its factor less 1; a clock: what it is slow by, of 1
-  std::string write{};  ///< what mends it in the data set
-  std::string words{};  ///< a clause: "the load of run r05 is 2.1 kg less than written"
+  FittedNumber size{};             ///< a load: what to add to it, or its factor less 1; a reading: what it is
+                                   ///< too high by, or its factor less 1; a clock: what it is slow by, of 1
+  std::string write{};             ///< what mends it in the data set
+  std::string words{};             ///< a clause: "the load of run r05 is 2.1 kg less than written"
+  std::vector<double> loads_kg{};  ///< of a fault of loads: those of `runs`, as estimated
+
+  bool of_loads() const { return name == "load_label" || name == "loads_differ"; }
 };
 
 /// The error of a reading beside the one that is judged, on the runs held out; in its SI unit.

@@ -63,9 +63,13 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
   const domain::Rows& rows = *data.rows_of_stamps;
   if (rows.rows < rows.stamps)
     words.push_back(fmt::format(
-        "of {} stamps {} rows were compared, {:.3g} ms apart{}; the inputs were followed at {} "
+        "of {} stamps {} rows were compared{}, {:.3g} ms apart{}; the inputs were followed at {} "
         "stamps, with all at which they jump or bend",
-        rows.stamps, rows.rows, 1e3 * rows.row_s,
+        rows.stamps, rows.rows,
+        data.recorded.skip_s > 0.0
+            ? fmt::format(" (none in the first {:g} s of a run: skip)", data.recorded.skip_s)
+            : "",
+        1e3 * rows.row_s,
         rows.readings < 2.0 ? "" : fmt::format(", each of {:.0f} readings on average", rows.readings),
         rows.inputs));
   if (rows.given_noise_Pa > 0.0)

@@ -246,18 +246,27 @@ std::string search_in_words(const Diagnosis& d) {
                      fmt::join(d.not_done, "; "));
 }
 
+/// With what other parameters would leave, where that is less and not by more than chance.
+std::string agreement_in_words(const Diagnosis& d) {
+  const bool at_floor = d.gap.floors_left() <= thresholds.tell.at_floor;
+  const std::string left = amount_in_words(d, d.gap.corrected_rmse),
+                    recalibrated = amount_in_words(d, d.gap.recalibrated_rmse);
+  return fmt::format(
+      "{} to within noise{}: on runs held out {} differs by {}{}, and neither other values of the nominal "
+      "parameters nor any effect of the catalogue {}.",
+      d.faults.empty() && d.bench.empty() ? "Model and data agree" : "Apart from that model and data agree",
+      at_floor ? "" : ", the wander of the input and the ± of the parameters", what_is_judged(d), left,
+      at_floor || d.gap.recalibrated_rmse >= d.gap.corrected_rmse
+          ? ""
+          : fmt::format(" ({} with recalibrated parameters; the instruments cannot see below {})",
+                        recalibrated, amount_in_words(d, d.gap.noise_floor)),
+      at_floor ? "makes that clearly less" : "predicts these runs better by more than chance");
+}
+
 std::string verdict_in_words(const Diagnosis& d) {
   switch (d.verdict) {
     case Verdict::nothing_missing:
-      return fmt::format(
-          "{} to within noise{}: on runs held out {} differs by {}, and neither other values of "
-          "the nominal parameters nor any effect of the catalogue makes that clearly less.",
-          d.faults.empty() && d.bench.empty() ? "Model and data agree"
-                                              : "Apart from that model and data agree",
-          d.gap.floors_left() > thresholds.start.explained_floors
-              ? ", the wander of the input and the ± of the parameters"
-              : "",
-          what_is_judged(d), amount_in_words(d, d.bench.empty() ? d.gap.nominal_rmse : d.gap.corrected_rmse));
+      return agreement_in_words(d);
     case Verdict::recalibrate:
       return numbers_in_words(d);
     case Verdict::missing_effect:

@@ -147,6 +147,7 @@ struct TellThresholds {
   double chance = 6.0;     ///< fall of the misfit that is chance below: log 20 nats (Kass & Raftery 1995)
   double invisible = 0.5;  ///< of the catalogue: if more of it would not show, nothing can be told
   double closed = 0.9;     ///< of the gap, by what leaves more than noise: enough for an answer. Convention
+  double at_floor = 1.1;   ///< noise floors: no more than noise
   double not_credible = 10.0;      ///< deviations: no sheet is so wrong
   double false_alarm_rate = 0.03;  ///< aimed at; docs/diagnosis.md has what was measured
   double told_phase = 0.005;       ///< rad: less is not told

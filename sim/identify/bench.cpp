@@ -49,17 +49,31 @@ class FaultReport {
       : model_(model), estimates_(estimates), rows_(model.problem->rows), data_(rows_.data()) {}
 
   std::vector<BenchFault> operator()() {
+    for (std::size_t i = 0; i < model_.point.differ.size(); ++i) differing_runs(i);
     std::size_t at = 0;
     for (const Added& added : model_.point.effects) {
       const Entry& entry = model_.problem->dictionary.entries[added.entry];
       if (entry.bench != nullptr) common(entry, estimates_.bench[at++]);
     }
-    for (std::size_t i = 0; i < model_.point.differ.size(); ++i) differing_runs(i);
     return std::move(list_);
   }
 
  private:
   const domain::Run& run(std::size_t place) const { return data_.runs[rows_.runs[place]]; }
+
+  /// A run's load with what is off in all.
+  double shared_load_kg(std::size_t place) const {
+    Bench bench = model_.problem->dictionary.setting(model_.point).bench;
+    bench.of_runs[loads].clear();
+    return bench.load_kg(run(place).load_kg, place);
+  }
+
+  /// A run whose load was reported with all that is off.
+  bool has_its_own_load(std::size_t place) const {
+    return std::ranges::any_of(list_, [&](const BenchFault& fault) {
+      return fault.of_loads() && std::ranges::find(fault.runs, run(place).id) != fault.runs.end();
+    });
+  }
 
   /// Of what is judged and what was read with it, changed.
   std::string lines_of_readings(const auto& change) const {
@@ -93,12 +107,19 @@ class FaultReport {
                                 domain::fill_in, number_of(1.0 + size.value, deviation));
     } else {
       const bool factor = entry.bench->of == &Bench::load_factor;
+      std::map<double, std::vector<std::string>> by_load;
+      fault.runs.clear();
+      for (std::size_t i = 0; i < rows_.runs.size(); ++i)
+        if (!has_its_own_load(i)) {
+          by_load[run(i).load_kg].push_back(run(i).id);
+          fault.runs.push_back(run(i).id);
+          fault.loads_kg.push_back(shared_load_kg(i));
+        }
+      if (fault.runs.empty()) return;
       fault.words = fmt::format(
-          "all loads are {} {} {} than written",
+          "all {}loads are {} {} {} than written", fault.runs.size() < rows_.runs.size() ? "other " : "",
           number_of((factor ? 100.0 : 1.0) * std::abs(size.value), (factor ? 100.0 : 1.0) * deviation),
           factor ? "%" : "kg", more_or_less(size.value));
-      std::map<double, std::vector<std::string>> by_load;
-      for (std::size_t i = 0; i < rows_.runs.size(); ++i) by_load[run(i).load_kg].push_back(run(i).id);
       std::vector<std::string> lines;
       for (const auto& [written, ids] : by_load) {
         const double is = factor ? written * (1.0 + size.value) : written + size.value;
@@ -131,7 +152,7 @@ class FaultReport {
     const EachRun of = each_run(model_, place);
     const bool of_time = which == delays || which == drifts;
     if (of_time && same_in_all(of)) return report_common(which, of);
-    std::vector<double> values = of.values, deviations = of.deviations();
+    std::vector<double> values = of.values, totals, deviations = of.deviations();
     if (!of_time) {
       const Common common = common_of(which, of.values);
       values = common.owns(of.values);
@@ -142,6 +163,9 @@ class FaultReport {
       }
       if (which == loads && none && std::abs(common.value) > stands_out * of.deviation(common.weights))
         return report_common_loads(common, of);
+      if (which == loads)
+        for (std::size_t i = 0; i < values.size(); ++i)
+          totals.push_back(shared_load_kg(i) + values[i] - run(i).load_kg);
     }
     const auto by = [&](std::size_t i) { return std::abs(values[i]); };
     std::size_t furthest = 0;
@@ -149,7 +173,8 @@ class FaultReport {
       if (by(i) > by(furthest)) furthest = i;
     for (std::size_t i = 0; i < of.values.size(); ++i)
       if (i == furthest || (by(i) > stands_out * deviations[i] && by(i) > matters * by(furthest)))
-        report(which, i, values[i], deviations[i], which == loads ? exchanged_with(i, values) : std::nullopt);
+        report(which, i, which == loads ? totals[i] : values[i], deviations[i],
+               which == loads ? exchanged_with(i, totals) : std::nullopt);
   }
 
   /// The run whose label this one seems to have, and whose seems to have this one's.
@@ -207,13 +232,14 @@ class FaultReport {
 
   void report_common_loads(const Common& common, const EachRun& of) {
     BenchFault fault;
-    Bench bench = model_.problem->dictionary.setting(model_.point).bench;
-    bench.of_runs[loads].clear();
+    std::vector<double> loads_kg;
     double most_kg = 0.0;
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < rows_.runs.size(); ++i) {
-      const double size = common.sizes[static_cast<Eigen::Index>(i)], off_kg = size * common.value;
+      const double size = common.sizes[static_cast<Eigen::Index>(i)];
       const double deviation_kg = of.deviation(size * common.weights);
+      loads_kg.push_back(shared_load_kg(i) + size * common.value);
+      const double off_kg = loads_kg.back() - run(i).load_kg;
       if (std::abs(off_kg) > most_kg) {
         most_kg = std::abs(off_kg);
         fault = fault_of(loads, off_kg, deviation_kg);
@@ -223,9 +249,9 @@ class FaultReport {
             "them, of another radius",
             more_or_less(off_kg), run(i).id, number_of(most_kg, deviation_kg));
       }
-      lines.push_back(fmt::format("{}: load: {} kg", run(i).id,
-                                  number_of(bench.load_kg(run(i).load_kg, i) + off_kg, deviation_kg)));
+      lines.push_back(fmt::format("{}: load: {} kg", run(i).id, number_of(loads_kg.back(), deviation_kg)));
     }
+    fault.loads_kg = std::move(loads_kg);
     for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
     fault.write = fmt::format("{}", fmt::join(lines, "; "));
     list_.push_back(std::move(fault));
@@ -247,11 +273,10 @@ class FaultReport {
     if (which == loads) {
       fault.words = fmt::format("the load of run {} is {} kg {} than written", of.id,
                                 number_of(std::abs(value), deviation), more_or_less(value));
-      Bench bench = model_.problem->dictionary.setting(model_.point).bench;
-      bench.of_runs[loads].clear();
-      fault.write =
-          fmt::format("load: {} kg", number_of(bench.load_kg(of.load_kg, place) + value, deviation));
+      fault.loads_kg = {of.load_kg + value};
+      fault.write = fmt::format("load: {} kg", number_of(fault.loads_kg.front(), deviation));
       if (exchanged) {
+        fault.loads_kg = {run(*exchanged).load_kg};
         fault.words +=
             fmt::format(", as if its label were exchanged with that of run {}", run(*exchanged).id);
         fault.write = fmt::format("load: {} kg", domain::write_number(run(*exchanged).load_kg));
@@ -325,19 +350,22 @@ std::vector<BenchFault> bench_faults(const Model& model, const Estimates& estima
 domain::Dataset without_faults(const Model& model) {
   const Rows& rows = model.problem->rows;
   domain::Dataset data = rows.data();
-  const Bench bench = model.problem->dictionary.setting(model.point).bench;
+  Bench bench = model.problem->dictionary.setting(model.point).bench;
+  bench.of_runs[loads].clear();  // where the model was simulated; `own` is most probable
   for (std::size_t i = 0; i < rows.runs.size(); ++i) {
     domain::Run& run = data.runs[rows.runs[i]];
-    run.load_kg = bench.load_kg(run.load_kg, i);
+    double own_kg = 0.0;
     std::vector<double>& read = run.judged();
     double zero = bench.zero, gain = 0.0, drift_per_s = 0.0, late_s = 0.0;
     for (std::size_t place = 0; place < model.point.differ.size(); ++place) {
       const double own = values_of(model, place)[i];
+      if (model.point.differ[place] == loads) own_kg += own;
       if (model.point.differ[place] == zeros) zero += own;
       if (model.point.differ[place] == gains) gain += own;
       if (model.point.differ[place] == delays) late_s += own;
       if (model.point.differ[place] == drifts) drift_per_s += own;
     }
+    run.load_kg = bench.load_kg(run.load_kg, i) + own_kg;
     for (std::size_t k = 0; k < read.size(); ++k)
       read[k] = (read[k] - zero - drift_per_s * rows.row_s * static_cast<double>(k)) / (1.0 + gain);
     late_s -= bench.ahead_s;

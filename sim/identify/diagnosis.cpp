@@ -204,7 +204,7 @@ class HandingOver {
     if (offset != result_.recalibrated.end() && offset->notable()) return;
     const auto estimated = [&](const std::string& run) {
       return std::ranges::any_of(result_.bench, [&](const diagnose::BenchFault& fault) {
-        return (fault.name == "load_label" || fault.name == "loads_differ") &&
+        return fault.of_loads() &&
                (data_.parts_of_a_run || std::ranges::find(fault.runs, run) != fault.runs.end());
       });
     };
@@ -239,6 +239,10 @@ class HandingOver {
     const auto rig_of = [](const Model& model) { return model.problem->dictionary.setting(model.point).rig; };
     result_.where = diagnose::where(experiment_, rig_of(all.recalibrated), usable_.runs, reporting_.seed);
     const domain::Dataset mended = without_faults(found_.models[handed]);
+    for (const diagnose::BenchFault& fault : result_.bench)
+      for (std::size_t i = 0; i < fault.loads_kg.size(); ++i)
+        std::ranges::find(result_.runs, fault.runs[i], &diagnose::RunGap::id)->estimated_load_kg =
+            fault.loads_kg[i];
     const Experiment of_mended(mended, usable_.masked, settings_.threads, usable_.runs);
     result_.start = look_at_start(of_mended, result_.corrected, usable_.runs);
     result_.remaining = remaining(of_mended, result_.corrected, usable_.runs, result_.gap, reporting_.seed);

@@ -84,7 +84,7 @@ std::string gap(const Diagnosis& diagnosis, const plant::Rig& rig) {
     return fmt::format("{:.3f}", 1e3 * rig.muscle.rest_length_m * value);
   };
   grid.add({error(gap.nominal_rmse), error(gap.recalibrated_rmse), error(gap.corrected_rmse),
-            error(gap.noise_floor), fmt::format("{:.1f} %", 100.0 * gap.closed)});
+            error(gap.noise_floor), changed(diagnosis) ? fmt::format("{:.1f} %", 100.0 * gap.closed) : "-"});
   const std::string why = why_recalibrated_is_worse(diagnosis);
   return grid.text() + (why.empty() ? "" : "  " + why + "\n");
 }

@@ -227,7 +227,8 @@ std::string explained_by(const diagnose::Explanation& explanation) {
 }
 
 std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis) {
-  if (diagnosis.gap.recalibrated_rmse <= diagnosis.gap.nominal_rmse) return "";
+  // With a fault of the bench neither says anything.
+  if (diagnosis.gap.recalibrated_rmse <= diagnosis.gap.nominal_rmse || !diagnosis.bench.empty()) return "";
   return "The recalibrated rig is worse than the nominal one: its parameters maximise the probability of the "
          "other runs, not this rms, and a model that lacks something predicts poorly what it was not fitted "
          "to.";
@@ -244,6 +245,7 @@ namespace {
 /// found.
 std::string untried_in_words(const diagnose::Diagnosis& diagnosis) {
   constexpr std::size_t most = 4;
+  if (!diagnosis.bench.empty()) return "";  // candidates promise to explain what the bench did
   double least = std::numeric_limits<double>::infinity();
   for (const auto& effect : diagnosis.effects) least = std::min(least, effect.support.fall);
   std::vector<std::string> names;
@@ -325,6 +327,10 @@ std::string held_out_in_words(const diagnose::Diagnosis& diagnosis) {
 }
 
 bool changed(const diagnose::Diagnosis& diagnosis) {
+  return !diagnosis.bench.empty() || rig_changed(diagnosis);
+}
+
+bool rig_changed(const diagnose::Diagnosis& diagnosis) {
   return !diagnosis.effects.empty() || !diagnosis.stand_ins.empty() || !diagnosis.residual_law.empty() ||
          !diagnosis.recalibrated.empty();
 }

@@ -87,8 +87,9 @@ bool each_is_held_out(const diagnose::Diagnosis& diagnosis);
 /// "r07 and r08 held out", "each predicted from the others".
 std::string held_out_in_words(const diagnose::Diagnosis& diagnosis);
 
-/// Whether the corrected rig is another than the nominal one.
+/// Whether the corrected model is another than the nominal one: by its rig, or by faults of the bench.
 bool changed(const diagnose::Diagnosis& diagnosis);
+bool rig_changed(const diagnose::Diagnosis& diagnosis);
 
 /// What the catalogue, or a law of a rig's own, says of an effect; empty for a name that is in neither.
 struct EffectWords {

@@ -77,7 +77,7 @@ std::string gap_row(const char* name, double rmse, const diagnose::Gap& gap, con
 
 /// Where much of the gap sits in little of the data, in a sentence; empty if it is spread evenly.
 std::string concentration(const Diagnosis& diagnosis, const plant::Rig& rig) {
-  if (diagnosis.gap.recalibrated_rmse < 1.1 * diagnosis.gap.noise_floor)
+  if (diagnosis.gap.recalibrated_rmse < diagnose::thresholds.tell.at_floor * diagnosis.gap.noise_floor)
     return paragraph("Nothing is left here: the recalibrated model is as near as the noise floor.");
   const auto dense = diagnose::densest(diagnosis.where);
   if (dense.empty()) return "";
@@ -135,14 +135,22 @@ std::string law_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
 std::string recalibrated_html(const Diagnosis& diagnosis) {
   if (diagnosis.recalibrated.empty()) return "";
   std::string rows;
+  double most = 0.0;
   for (const auto& moved : diagnosis.recalibrated) {
+    most = std::max(most, std::abs(moved.deviations));
+    if (!moved.notable()) continue;
     const auto shown = readable(moved.fitted);
     rows += row(moved.fitted.name, {readable(moved.nominal, moved.fitted.unit), shown.value, shown.interval,
                                     rounded(moved.deviations, 1, true)});
   }
+  if (rows.empty())
+    return paragraph(fmt::format("Recalibrated: no parameter moved by more than {} deviations of its ±.",
+                                 rounded(most, 1)));
   return "<div class='wide' tabindex='0'>" +
-         table("Recalibrated; deviations are those within which a data sheet or a ruler gives the value",
-               {"parameter", "nominal", "fitted", "95 % interval", "deviations"}, rows) +
+         table(
+             "Recalibrated by a deviation or more, of those within which a data sheet or a ruler gives the "
+             "value",
+             {"parameter", "nominal", "fitted", "95 % interval", "deviations"}, rows) +
          "</div>\n";
 }
 

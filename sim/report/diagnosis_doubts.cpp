@@ -1,4 +1,5 @@
 // What else it could be, what speaks for each name, what competed; what to measure next.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -74,8 +75,10 @@ std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) 
                                     effect.who().words())
                       : fmt::format("{} could as well be {}: these data do not separate them.",
                                     effect.who().words(), output::listed(words_of(effect.confusable_with))));
-  if (!gauged(data) && !data.pressure_is_given() &&
-      (!diagnosis.effects.empty() || !diagnosis.residual_law.empty()))
+  const bool open = !diagnosis.residual_law.empty() ||
+                    std::ranges::any_of(diagnosis.effects,
+                                        [](const auto& effect) { return !effect.confusable_with.empty(); });
+  if (open && !gauged(data) && !data.pressure_is_given())
     html += paragraph(
         "The data hold no muscle pressure. One measured quantity can show one unknown only: what looks like "
         "a missing force could be a missing flow of gas that has the same consequences for the load. A "

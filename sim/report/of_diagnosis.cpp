@@ -94,11 +94,11 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
         {"force_error", [force_N, pull_N](std::size_t k) { return (*force_N)[k] - pull_N(k); }});
   }
   if (recorded->beside(domain::Beside::muscle_pressure) != nullptr)
-    run.quantities.push_back(
-        {"muscle_pressure_error", [replayed, recorded, effects = rig.effects](std::size_t k) {
-           const double true_Pa = replayed->recording.samples[k].state.side.muscle_pressure_Pa;
-           return ((*recorded->muscle_pressure_Pa)[k] - effects.shown_Pa(true_Pa)) / 1e5;
-         }});
+    run.quantities.push_back({"muscle_pressure_error", [replayed, recorded](std::size_t k) {
+                                const double shown_Pa =
+                                    replayed->recording.samples[k].shown[plant::Sensed::muscle_pressure];
+                                return ((*recorded->muscle_pressure_Pa)[k] - shown_Pa) / plant::Pa_per_bar;
+                              }});
   return run;
 }
 
@@ -123,16 +123,21 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
              pair = data.rig.pair() != nullptr;
   const output::JudgedWords& of = output::words_of(judged);
   const bool changed = output::changed(diagnosis);
-  Group group{.name = fmt::format("{}{}{}", gap.id, hangs ? ", " + output::mass(gap.load_kg) : "",
+  const double load_kg = gap.estimated_load_kg.value_or(gap.load_kg);
+  const std::string load = hangs ? ", " + output::mass(load_kg) : "",
+                    written = hangs && gap.estimated_load_kg
+                                  ? " (" + output::mass(gap.load_kg) + " as written)"
+                                  : "";
+  Group group{.name = fmt::format("{}{}{}{}", gap.id, load, written,
                                   gap.left_out                                           ? ", left out"
                                   : gap.held_out && !output::each_is_held_out(diagnosis) ? ", held out"
                                                                                          : ""),
-              .load_kg = gap.load_kg,
+              .load_kg = load_kg,
               .ticks = gap.measured.size()};
   group.given = {{std::string("given_") + of.signal,
                   [&gap, size = of.size](std::size_t k) { return gap.measured[k] / size; }}};
   if (hangs) {
-    const double weight_N = plant::Plant(diagnosis.corrected, gap.load_kg).weight_N();
+    const double weight_N = plant::Plant(diagnosis.corrected, load_kg).weight_N();
     group.given.push_back({"weight", [weight_N](std::size_t) { return weight_N; }});
   }
   const domain::Run* recorded = by_id(data.runs, gap.id);

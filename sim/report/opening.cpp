@@ -99,6 +99,15 @@ std::vector<Found> found_in(const Diagnosis& diagnosis) {
       if (const std::string others = output::or_others(effect); !others.empty())
         list.back().size += (list.back().size.empty() ? "" : "; ") + others;
     }
+  for (const auto& fault : diagnosis.bench) {  // of a kind in several runs one mark
+    const auto before = std::ranges::find(list, fault.name, &Found::name);
+    if (before != list.end())
+      before->size = fmt::format(
+          "{} runs", std::ranges::count(diagnosis.bench, fault.name, &diagnose::BenchFault::name));
+    else
+      list.push_back(
+          {fault.of_loads() ? Part::guide : Part::encoder, fault.name, output::readable(fault).value});
+  }
   if (!diagnosis.residual_law.empty())
     list.push_back(
         {Part::muscle, "a law of force", output::readable(diagnosis.residual_law.front().coefficient).value});
@@ -199,7 +208,7 @@ std::string loop_and_rig(const domain::Dataset& data, const Diagnosis& diagnosis
     svg += words_at(column, y, fmt::format("{} {}", i + 1, found[i].name), "strong") +
            words_at(column + 12.0, y + 15.0, found[i].size, "soft");
   if (more > 0) svg += words_at(column, y, fmt::format("and {} more", more), "soft"), y += 16.0;
-  if (!found.empty())
+  if (!found.empty() && output::rig_changed(diagnosis))
     svg += what_it_does(data, diagnosis, run, panel(column, edge_px, y - 4.0, whole_high - 40.0));
   return svg;
 }
@@ -218,8 +227,9 @@ std::vector<Picture> pictures_of(const domain::Dataset& data, const Diagnosis& d
 std::string caption_of(const Diagnosis& diagnosis, const Group& run) {
   return fmt::format("{}. Below: measured less model, and the noise floor as a band.{}", run.name,
                      found_in(diagnosis).empty() ? ""
-                                                 : " Right: where the effect acts, and a slow loop without "
-                                                   "it (wide) and with it.");
+                     : output::rig_changed(diagnosis)
+                         ? " Right: where the effect acts, and a slow loop without it (wide) and with it."
+                         : " Right: where the bench is at fault.");
 }
 
 /// Class and words of each line.

@@ -210,6 +210,8 @@ Found find(const domain::Dataset& data, const Diagnosing& how, const run::Progre
   found.nominal = run::replay(data, how.threads, progress);
   domain::Dataset mended = data;
   mended.rig = found.diagnosis.corrected;
+  for (std::size_t i = 0; i < mended.runs.size(); ++i)
+    mended.runs[i].load_kg = found.diagnosis.runs[i].estimated_load_kg.value_or(mended.runs[i].load_kg);
   found.corrected = run::replay(mended, how.threads, progress);
   return found;
 }

@@ -110,5 +110,27 @@ TEST(Diagnose, TakesAGivenPressureAndALaser) {
   EXPECT_TRUE(holds(read_text(scratch / "found/report.html"), "out of sight"));
 }
 
+TEST(Diagnose, SaysWhereAWrongLoadIsWrittenBeforeAReplay) {
+  const Scratch scratch;
+  write_text(
+      scratch / "c.yaml",
+      "schema: mckibben-campaign/1\nrig: thesis\nloads: [11.138 kg, 16.138 kg, 23.406 kg]\ncurrents:\n"
+      "  - {name: a, duration: 3 s, current: {kind: triangle_current, low: 6 mA, high: 14 mA, period: 3 s}}\n"
+      "  - {name: b, duration: 3 s, current: {kind: sine_current, low: 6 mA, high: 14 mA, period: 1.5 s}}\n"
+      "noise: {encoder_jitter: 5e-5}\n");
+  ASSERT_EQ(mckibben("dataset c.yaml", scratch).status, 0);
+  std::string written = read_text(scratch / "out/c/dataset.yaml");
+  written.replace(written.find("load: 16.138", written.find("m2_b")), 12, "load: 13.138");
+  write_text(scratch / "out/c/dataset.yaml", written);
+  const Said said = mckibben("diagnose out/c", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::string next = said.err.substr(said.err.find("next: "));
+  EXPECT_TRUE(holds(next, "next: write in out/c/dataset.yaml load: 16.1",
+                    " kg in line 15, then mckibben replay out/c "))
+      << next;
+  EXPECT_TRUE(
+      holds(read_text(scratch / "out/c-diagnose/report.html"), "\"name\":\"corrected\"", "kg as written)"));
+}
+
 }  // namespace
 }  // namespace mckibben::cli

@@ -1,6 +1,7 @@
 // The verdict in words.
 #include <gtest/gtest.h>
 
+#include <sim/data/amount.hpp>
 #include <sim/diagnose/story.hpp>
 
 namespace mckibben::diagnose {
@@ -93,6 +94,22 @@ TEST(Story, TellsOnlyNumbersThatMovedAndErrorsByADecimal) {
   const std::string text = because(d);
   EXPECT_EQ(text.find("ratio"), std::string::npos) << text;
   EXPECT_NE(text.find("falls from 12.6 N to 0.51 N"), std::string::npos) << text;
+}
+
+// 0.077 mm are not "within noise" of 0.042 mm without a word on the difference.
+TEST(Story, SaysWhatOtherParametersWouldLeaveWhereTheRigAsDescribedLeavesMoreThanNoise) {
+  Diagnosis d;
+  d.verdict = Verdict::nothing_missing;
+  d.gap = {.noise_floor = 1e-4, .nominal_rmse = 1e-4, .recalibrated_rmse = 0.9e-4, .corrected_rmse = 1e-4};
+  EXPECT_TRUE(because(d).starts_with("Model and data agree to within noise: on runs held out")) << because(d);
+  EXPECT_EQ(because(d).find("recalibrated"), std::string::npos);
+  d.gap.nominal_rmse = d.gap.corrected_rmse = 1.8e-4;
+  const std::string text = because(d), height = data::amount_of(d.gap.judged, 0.9e-4, d.corrected);
+  EXPECT_NE(text.find("the ± of the parameters"), std::string::npos) << text;
+  EXPECT_NE(text.find("(" + height + " with recalibrated parameters; the instruments cannot see below"),
+            std::string::npos)
+      << text;
+  EXPECT_TRUE(text.ends_with("predicts these runs better by more than chance.")) << text;
 }
 
 TEST(Story, WritesALawAsASumAndSaysInWhatItCounts) {

@@ -191,6 +191,8 @@ TEST(DiagnosisTable, SaysWhyTheRecalibratedRigIsWorseOnlyWhereItIs) {
   EXPECT_TRUE(lacks(table_of(measured(), found), "worse than the nominal"));
   found.gap.recalibrated_rmse = 2.0 * found.gap.nominal_rmse;
   EXPECT_TRUE(holds(table_of(measured(), found), "worse than the nominal", "not this rms"));
+  found.bench = {{.name = "loads_differ", .runs = {"r05"}}};
+  EXPECT_TRUE(lacks(table_of(measured(), found), "worse than the nominal"));
 }
 
 TEST(DiagnosisTable, NamesEquivalentModelsWithoutNumbersThatNobodyExplains) {

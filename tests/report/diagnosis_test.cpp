@@ -88,6 +88,51 @@ TEST(DiagnosisPage, NamesFaultsOfTheBenchBeforeEffectsAndSaysWhatMendsThem) {
   EXPECT_LT(html.find("2.75 kg less than written", table), html.find("0.619 l/(min bar)", table));
 }
 
+/// A diagnosis that finds the load of r05 wrong, and nothing of the rig.
+diagnose::Diagnosis mislabelled() {
+  diagnose::Diagnosis found = diagnosed();
+  found.verdict = diagnose::Verdict::nothing_missing;
+  found.effects.clear();
+  found.residual_law.clear();
+  found.recalibrated.clear();
+  found.corrected = {};
+  found.runs[4].estimated_load_kg = 11.12;
+  found.bench = {{.name = "loads_differ",
+                  .runs = {"r05"},
+                  .size = {"", "kg", -2.75, -2.95, -2.55},
+                  .write = "load: 11.12 kg",
+                  .words = "the load of run r05 is 2.75 kg less than written",
+                  .loads_kg = {11.12}}};
+  return found;
+}
+
+TEST(DiagnosisPage, ShowsTheModelWithTheLoadThatWasFound) {
+  const std::string html = report_html(measured(), mislabelled(), {}, {});
+  EXPECT_TRUE(holds(html, "\"name\":\"corrected\"", "<th scope='row'>corrected</th>",
+                    "r05, 11.12 kg (13.87 kg as written), held out", "1 loads_differ",
+                    "Right: where the bench is at fault."));
+  EXPECT_TRUE(lacks(html, "a slow loop without it"));
+}
+
+TEST(DiagnosisPage, ListsParametersThatMovedByADeviationOrMore) {
+  diagnose::Diagnosis found = diagnosed();
+  const std::string html = report_html(measured(), found, {}, {});
+  EXPECT_TRUE(holds(html, "Recalibrated by a deviation or more", "muscle.rest_<wbr>radius"));
+  EXPECT_TRUE(lacks(html, "<th scope='row'>muscle.braid_<wbr>angle"));
+  found.recalibrated.erase(found.recalibrated.begin());
+  EXPECT_TRUE(holds(report_html(measured(), found, {}, {}),
+                    "Recalibrated: no parameter moved by more than 1.0 deviations of its ±."));
+}
+
+TEST(DiagnosisPage, AsksForAGaugeOnlyWhereANameIsOpen) {
+  diagnose::Diagnosis found = diagnosed();
+  found.residual_law.clear();
+  const std::string gauge = "A pressure gauge on the muscle decides it";
+  EXPECT_TRUE(holds(report_html(measured(), found, {}, {}), gauge));
+  found.effects.back().confusable_with.clear();
+  EXPECT_TRUE(lacks(report_html(measured(), found, {}, {}), gauge));
+}
+
 TEST(DiagnosisPage, MarksANameThatAnotherCouldBe) {
   const std::string html = report_html(measured(), diagnosed(), {}, {});
   const std::size_t table = html.find("Verdict: missing_effect");
