@@ -331,5 +331,18 @@ TEST(HandedOver, LabelsThatWereExchangedAsSuch) {
   EXPECT_TRUE(found.bench[0].words.ends_with("as if its label were exchanged with that of run r03"));
 }
 
+// 12 kg are far: no effect may make up for what the fit left on its way.
+TEST(HandedOver, LabelsThatWereExchangedFarApartAloneAndWithTheirLoads) {
+  domain::Dataset data = diagnose::small({});
+  std::swap(data.runs[0].load_kg, data.runs[5].load_kg);
+  const Diagnosis found = handed_over(data);
+  EXPECT_EQ(found.verdict, diagnose::Verdict::nothing_missing) << found.because;
+  ASSERT_EQ(found.bench.size(), 2U) << found.because;
+  EXPECT_EQ(found.bench[0].write, "load: 11.138 kg");
+  EXPECT_EQ(found.runs[0].estimated_load_kg, 11.138);
+  EXPECT_EQ(found.runs[5].estimated_load_kg, 23.406);
+  EXPECT_FALSE(found.runs[1].estimated_load_kg);
+}
+
 }  // namespace
 }  // namespace mckibben::identify
