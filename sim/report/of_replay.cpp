@@ -170,12 +170,6 @@ Contents drawn_of(const domain::Dataset& dataset, const std::vector<run::Replaye
   return contents;
 }
 
-std::vector<std::pair<std::string, std::string>> keys_of(const Contents& contents) {
-  std::vector<std::pair<std::string, std::string>> keys{{"run c0 d0", "simulated"}};
-  if (contents.plots.front().lines.front().given) keys.insert(keys.begin(), {"given", "measured"});
-  return keys;
-}
-
 }  // namespace
 
 std::string report_html(const domain::Dataset& dataset, const std::vector<run::ReplayedRun>& runs,
@@ -197,7 +191,10 @@ std::string tracking_svg(const domain::Dataset& dataset, const std::vector<run::
   for (const Group& group : all.groups)
     panels.push_back(
         {group.name, still_svg(group, all.plots.front(), all.rig, ticks_looked_at(runs.size()))});
-  return sheet_svg(panels, still_width, still_height, keys_of(all), all.plots.front().title);
+  if (panels.empty()) return "";
+  const Plot& drawn = all.plots.front();
+  return sheet_svg(panels, still_width, still_height, keys_of(all.groups.front(), drawn.lines.front().given),
+                   drawn.title);
 }
 
 }  // namespace mckibben::report

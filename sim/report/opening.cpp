@@ -232,14 +232,6 @@ std::string caption_of(const Diagnosis& diagnosis, const Group& run) {
                          : " Right: where the bench is at fault.");
 }
 
-/// Class and words of each line.
-std::vector<std::pair<std::string, std::string>> keys_of(const Group& run) {
-  std::vector<std::pair<std::string, std::string>> keys{{"given", "measured"}};
-  for (const Run& one : run.runs)
-    keys.emplace_back(fmt::format("run c{} d{}", one.style % 7, one.style % 4), one.name);
-  return keys;
-}
-
 }  // namespace
 
 const diagnose::RunGap* telling_run(const Diagnosis& diagnosis) {

@@ -59,4 +59,12 @@ std::string sheet_svg(const std::vector<Picture>& pictures, double wide_px, doub
   return output::svg_begin(width, y_px, 13, style()) + "<g class='opening'>\n" + svg + "</g>\n</svg>\n";
 }
 
+std::vector<std::pair<std::string, std::string>> keys_of(const Group& group, bool measured) {
+  std::vector<std::pair<std::string, std::string>> keys;
+  if (measured) keys.emplace_back("given", "measured");
+  for (const Run& one : group.runs)
+    keys.emplace_back(fmt::format("run c{} d{}", one.style % 7, one.style % 4), one.name);
+  return keys;
+}
+
 }  // namespace mckibben::report

@@ -15,4 +15,7 @@ namespace mckibben::report {
 std::string sheet_svg(const std::vector<Picture>& pictures, double wide_px, double high_px,
                       const std::vector<std::pair<std::string, std::string>>& keys, std::string_view words);
 
+/// Class and words of each line of a group: its runs, as measured before them.
+std::vector<std::pair<std::string, std::string>> keys_of(const Group& group, bool measured = true);
+
 }  // namespace mckibben::report
