@@ -221,7 +221,7 @@ struct PointsOf {
   std::vector<double> knots_s() const;
 
   static void fields(auto& self, auto& visit) {
-    visit.required("points", self.points, "times and values in order of time");
+    visit.required("points", self.points, "a list of {at: time, to: value}");
   }
   void rules(auto& report) const {
     if (points.empty()) report("points", "at least one point is needed");

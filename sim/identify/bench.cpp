@@ -68,10 +68,12 @@ class FaultReport {
     return bench.load_kg(run(place).load_kg, place);
   }
 
-  /// A run whose load was reported with all that is off.
-  bool has_its_own_load(std::size_t place) const {
+  /// A run of which that was reported with all that is off.
+  bool has_its_own(int which, std::size_t place) const {
     return std::ranges::any_of(list_, [&](const BenchFault& fault) {
-      return fault.of_loads() && std::ranges::find(fault.runs, run(place).id) != fault.runs.end();
+      return (which == loads ? fault.of_loads()
+                             : fault.name == differing.at(static_cast<std::size_t>(which)).name) &&
+             std::ranges::find(fault.runs, run(place).id) != fault.runs.end();
     });
   }
 
@@ -110,7 +112,7 @@ class FaultReport {
       std::map<double, std::vector<std::string>> by_load;
       fault.runs.clear();
       for (std::size_t i = 0; i < rows_.runs.size(); ++i)
-        if (!has_its_own_load(i)) {
+        if (!has_its_own(loads, i)) {
           by_load[run(i).load_kg].push_back(run(i).id);
           fault.runs.push_back(run(i).id);
           fault.loads_kg.push_back(shared_load_kg(i));
@@ -145,36 +147,44 @@ class FaultReport {
     return factor.spread(values) < offset.spread(values) ? factor : offset;
   }
 
-  /// What all runs have in common is not determined, but for their clocks: each is reported less that; or
-  /// that, where no run is off by itself.
+  /// What runs have in common, where it is determined, and what is off in single runs besides.
   void differing_runs(std::size_t place) {
     const int which = model_.point.differ[place];
     const EachRun of = each_run(model_, place);
-    const bool of_time = which == delays || which == drifts;
-    if (of_time && same_in_all(of)) return report_common(which, of);
-    std::vector<double> values = of.values, totals, deviations = of.deviations();
-    if (!of_time) {
+    if (of_time(which) && same_in_all(of))
+      return report_common(which, data::median(of.values), data::median(of.deviations()));
+    std::vector<double> own = of.values, deviations = of.deviations(), totals = of.values;
+    std::optional<Common> shared;
+    if (!of_time(which)) {
       const Common common = common_of(which, of.values);
-      values = common.owns(of.values);
-      bool none = true;
-      for (std::size_t i = 0; i < values.size(); ++i) {
+      own = common.owns(of.values);
+      for (std::size_t i = 0; i < own.size(); ++i)
         deviations[i] = of.deviation(common.own(static_cast<Eigen::Index>(i)));
-        none = none && std::abs(values[i]) <= stands_out * deviations[i];
-      }
-      if (which == loads && none && std::abs(common.value) > stands_out * of.deviation(common.weights))
-        return report_common_loads(common, of);
-      if (which == loads)
-        for (std::size_t i = 0; i < values.size(); ++i)
-          totals.push_back(shared_load_kg(i) + values[i] - run(i).load_kg);
+      if (std::abs(common.value) > stands_out * of.deviation(common.weights) &&
+          common.sizes.maxCoeff() * std::abs(common.value) > matters * largest(own))
+        shared = common;
+      else
+        totals = own;
     }
-    const auto by = [&](std::size_t i) { return std::abs(values[i]); };
-    std::size_t furthest = 0;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (by(i) > by(furthest)) furthest = i;
-    for (std::size_t i = 0; i < of.values.size(); ++i)
-      if (i == furthest || (by(i) > stands_out * deviations[i] && by(i) > matters * by(furthest)))
-        report(which, i, which == loads ? totals[i] : values[i], deviations[i],
-               which == loads ? exchanged_with(i, totals) : std::nullopt);
+    if (which == loads)
+      for (std::size_t i = 0; i < totals.size(); ++i) totals[i] += shared_load_kg(i) - run(i).load_kg;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if ((!shared && std::abs(own[i]) == largest(own)) ||
+          (std::abs(own[i]) > stands_out * deviations[i] && std::abs(own[i]) > matters * largest(own)))
+        report(which, i, totals[i], deviations[i], which == loads ? exchanged_with(i, totals) : std::nullopt);
+    if (!shared) return;
+    if (which == loads)
+      report_common_loads(*shared, of);
+    else
+      report_common(which, shared->value, of.deviation(shared->weights));
+  }
+
+  static bool of_time(int which) { return which == delays || which == drifts; }
+
+  static double largest(const std::vector<double>& values) {
+    double most = 0.0;
+    for (const double value : values) most = std::max(most, std::abs(value));
+    return most;
   }
 
   /// The run whose label this one seems to have, and whose seems to have this one's.
@@ -212,56 +222,75 @@ class FaultReport {
                      .high = value + of_95 * deviation}};
   }
 
-  /// Of delays and drifts: what is wrong with readings, and what mends them.
-  void tell_of_time(BenchFault& fault, const domain::Run& of, int which, const std::string& readings,
-                    double deviation) const {
+  /// What is wrong with the readings of a run or of all, and what mends them.
+  void tell(BenchFault& fault, const domain::Run& of, int which, const std::string& whose,
+            double deviation) const {
     const double value = fault.size.value;
-    if (which == delays) {
+    if (which == zeros) {
+      fault.words = fmt::format("the zero of {} is {} too {}", whose,
+                                data::amount_of(data_.judged(), std::abs(value), data_.rig),
+                                more_or_less(value, "high", "low"));
+      fault.write = column_line(of, value, 1.0, deviation);
+    } else if (which == gains) {
+      fault.words = fmt::format("the readings of {} are {} % too {}", whose,
+                                number_of(100.0 * std::abs(value), 100.0 * deviation),
+                                more_or_less(value, "large", "small"));
+      fault.write = column_line(of, 0.0, 1.0 / (1.0 + value), deviation);
+    } else if (which == delays) {
       const std::string ms = number_of(1e3 * std::abs(value), 1e3 * deviation);
-      fault.words = fmt::format("{} come {} ms {}", readings, ms, more_or_less(value, "late", "early"));
+      fault.words =
+          fmt::format("the readings of {} come {} ms {}", whose, ms, more_or_less(value, "late", "early"));
       const std::string key = judged_key(of);
       fault.write =
           fmt::format("columns: {{{}}}", domain::line_of(key, later(place_of(of, key), value, deviation)));
     } else {
       const std::string rate = data::amount_of(data_.judged(), std::abs(value), data_.rig);
-      fault.words =
-          fmt::format("{} drift by {} {} a second", readings, rate, more_or_less(value, "up", "down"));
+      fault.words = fmt::format("the readings of {} drift by {} {} a second", whose, rate,
+                                more_or_less(value, "up", "down"));
       fault.write = "take the drift out of the column, or measure again";
     }
   }
 
+  /// Of the runs whose load was not reported.
   void report_common_loads(const Common& common, const EachRun& of) {
     BenchFault fault;
     std::vector<double> loads_kg;
+    std::vector<std::string> ids, lines;
     double most_kg = 0.0;
-    std::vector<std::string> lines;
     for (std::size_t i = 0; i < rows_.runs.size(); ++i) {
+      if (has_its_own(loads, i)) continue;
       const double size = common.sizes[static_cast<Eigen::Index>(i)];
       const double deviation_kg = of.deviation(size * common.weights);
+      ids.push_back(run(i).id);
       loads_kg.push_back(shared_load_kg(i) + size * common.value);
       const double off_kg = loads_kg.back() - run(i).load_kg;
       if (std::abs(off_kg) > most_kg) {
         most_kg = std::abs(off_kg);
         fault = fault_of(loads, off_kg, deviation_kg);
         fault.words = fmt::format(
-            "the loads of all runs are {} than written, that of run {} by {} kg; so would another muscle "
-            "move "
+            "{} than written, that of run {} by {} kg; so would another muscle move "
             "them, of another radius",
             more_or_less(off_kg), run(i).id, number_of(most_kg, deviation_kg));
       }
       lines.push_back(fmt::format("{}: load: {} kg", run(i).id, number_of(loads_kg.back(), deviation_kg)));
     }
+    if (ids.empty()) return;
+    fault.words = fmt::format("the loads of all {}runs are {}",
+                              ids.size() < rows_.runs.size() ? "other " : "", fault.words);
     fault.loads_kg = std::move(loads_kg);
-    for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
+    fault.runs = std::move(ids);
     fault.write = fmt::format("{}", fmt::join(lines, "; "));
     list_.push_back(std::move(fault));
   }
 
-  void report_common(int which, const EachRun& of) {
-    const double deviation = data::median(of.deviations());
-    BenchFault fault = fault_of(which, data::median(of.values), deviation);
-    for (std::size_t i = 0; i < rows_.runs.size(); ++i) fault.runs.push_back(run(i).id);
-    tell_of_time(fault, run(0), which, "the readings of every run", deviation);
+  /// Of the runs of which it was not reported.
+  void report_common(int which, double value, double deviation) {
+    BenchFault fault = fault_of(which, value, deviation);
+    for (std::size_t i = 0; i < rows_.runs.size(); ++i)
+      if (!has_its_own(which, i)) fault.runs.push_back(run(i).id);
+    if (fault.runs.empty()) return;
+    tell(fault, run(0), which, fault.runs.size() < rows_.runs.size() ? "every other run" : "every run",
+         deviation);
     list_.push_back(std::move(fault));
   }
 
@@ -281,18 +310,8 @@ class FaultReport {
             fmt::format(", as if its label were exchanged with that of run {}", run(*exchanged).id);
         fault.write = fmt::format("load: {} kg", domain::write_number(run(*exchanged).load_kg));
       }
-    } else if (which == zeros) {
-      fault.words = fmt::format("the zero of run {} is {} too {}", of.id,
-                                data::amount_of(data_.judged(), std::abs(value), data_.rig),
-                                more_or_less(value, "high", "low"));
-      fault.write = column_line(of, value, 1.0, deviation);
-    } else if (which == delays || which == drifts) {
-      tell_of_time(fault, of, which, "the readings of run " + of.id, deviation);
     } else {
-      fault.words = fmt::format("the readings of run {} are {} % too {}", of.id,
-                                number_of(100.0 * std::abs(value), 100.0 * deviation),
-                                more_or_less(value, "large", "small"));
-      fault.write = column_line(of, 0.0, 1.0 / (1.0 + value), deviation);
+      tell(fault, of, which, "run " + of.id, deviation);
     }
     list_.push_back(std::move(fault));
   }
@@ -345,37 +364,6 @@ class FaultReport {
 
 std::vector<BenchFault> bench_faults(const Model& model, const Estimates& estimates) {
   return FaultReport(model, estimates)();
-}
-
-domain::Dataset without_faults(const Model& model) {
-  const Rows& rows = model.problem->rows;
-  domain::Dataset data = rows.data();
-  Bench bench = model.problem->dictionary.setting(model.point).bench;
-  bench.of_runs[loads].clear();  // where the model was simulated; `own` is most probable
-  for (std::size_t i = 0; i < rows.runs.size(); ++i) {
-    domain::Run& run = data.runs[rows.runs[i]];
-    double own_kg = 0.0;
-    std::vector<double>& read = run.judged();
-    double zero = bench.zero, gain = 0.0, drift_per_s = 0.0, late_s = 0.0;
-    for (std::size_t place = 0; place < model.point.differ.size(); ++place) {
-      const double own = values_of(model, place)[i];
-      if (model.point.differ[place] == loads) own_kg += own;
-      if (model.point.differ[place] == zeros) zero += own;
-      if (model.point.differ[place] == gains) gain += own;
-      if (model.point.differ[place] == delays) late_s += own;
-      if (model.point.differ[place] == drifts) drift_per_s += own;
-    }
-    run.load_kg = bench.load_kg(run.load_kg, i) + own_kg;
-    for (std::size_t k = 0; k < read.size(); ++k)
-      read[k] = (read[k] - zero - drift_per_s * rows.row_s * static_cast<double>(k)) / (1.0 + gain);
-    late_s -= bench.ahead_s;
-    if (bench.clock != 0.0 || late_s != 0.0) {
-      const Eigen::VectorXd right = clocked(Eigen::Map<const Eigen::VectorXd>(read.data(), std::ssize(read)),
-                                            1.0 / (1.0 + bench.clock) - 1.0, late_s / rows.row_s);
-      std::ranges::copy(right, read.begin());
-    }
-  }
-  return data;
 }
 
 }  // namespace mckibben::identify

@@ -1,4 +1,4 @@
-// Faults of the bench as they are reported, each with the line that mends it; and the data set without them.
+// Faults of the bench as they are reported, each with the line that mends it.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,5 @@ namespace mckibben::identify {
 
 /// Those that a model has, after its evidence. `estimates`: of the same.
 std::vector<diagnose::BenchFault> bench_faults(const Model& model, const Estimates& estimates);
-
-/// The data with these taken out of loads and of the judged reading.
-domain::Dataset without_faults(const Model& model);
 
 }  // namespace mckibben::identify

@@ -135,7 +135,7 @@ bool Model::place() {
           curvature(gram, weight).llt().solve(Eigen::VectorXd(gram.col(0).tail(k) - weight.cwiseProduct(v)));
     const Grams left = error.grams(still, Eigen::MatrixXd(read.size(), 0));
     Point there = point;
-    there.of_runs = {};
+    for (const std::size_t i : placed) there.of_runs[static_cast<std::size_t>(point.differ[i])].clear();
     there.starts.clear();
     double furthest = 0.0;  // of what matters
     for (std::size_t run = 0; run < left.means.size(); ++run) {
@@ -170,8 +170,10 @@ void Model::share_common_load() {
   const Dictionary& dictionary = problem->dictionary;
   const auto offset = std::ranges::find(dictionary.parameters, "joint.load_offset", &Dictionary::Free::path);
   std::vector<double>& loads_kg = point.of_runs[loads];
-  if (loads_kg.empty() || point.z.size() == 0 || offset == dictionary.parameters.end()) return;
   const auto place = static_cast<std::size_t>(std::ranges::find(point.differ, loads) - point.differ.begin());
+  if (loads_kg.empty() || place == point.differ.size() || point.z.size() == 0 ||
+      offset == dictionary.parameters.end())
+    return;
   const double of_runs = std::pow(error.scale(place), -2.0), unit_kg = offset->scale;
   double& z = point.z[offset - dictionary.parameters.begin()];
   for (int pass = 0; pass < 50; ++pass) {  // normals that touch Student's t

@@ -21,6 +21,7 @@
 #include <sim/identify/diagnosis.hpp>
 #include <sim/identify/estimates.hpp>
 #include <sim/identify/gaps.hpp>
+#include <sim/identify/mended.hpp>
 #include <sim/identify/next.hpp>
 #include <sim/identify/rivals.hpp>
 #include <sim/identify/visible.hpp>
@@ -169,12 +170,22 @@ class HandingOver {
   }
 
   void report_model(std::size_t handed) {
-    const Model& model = found_.models[handed];
-    Estimates estimates = estimates_of(model);
+    const Model& found = found_.models[handed];
+    Estimates estimates = estimates_of(found);
+    result_.bench = bench_faults(found, estimates);
+    const auto& differ = found.point.differ;
+    if (std::ranges::find(differ, loads) != differ.end() && found.point.terms == Terms::none) {
+      step("fitting with the loads as they are reported");
+      mended_.emplace(with_reported_loads(found, result_.bench));
+      if (mended_->read.allFinite())
+        estimates = estimates_of(*mended_);
+      else
+        mended_.reset();
+    }
+    const Model& model = mended_ ? *mended_ : found;
     result_.corrected = estimates.rig;
     result_.recalibrated = std::move(estimates.moved);
     result_.left_open = std::move(estimates.left_open);
-    result_.bench = bench_faults(model, estimates);
     result_.residual_law = std::move(estimates.law);
     if (!result_.residual_law.empty()) result_.law_valid_for = diagnose::visited(data_, usable_.runs);
     if (result_.verdict == Verdict::missing_effect) {
@@ -238,7 +249,7 @@ class HandingOver {
     result_.runs = gaps_of_runs(found_, all, experiment_);
     const auto rig_of = [](const Model& model) { return model.problem->dictionary.setting(model.point).rig; };
     result_.where = diagnose::where(experiment_, rig_of(all.recalibrated), usable_.runs, reporting_.seed);
-    const domain::Dataset mended = without_faults(found_.models[handed]);
+    const domain::Dataset mended = without_faults(mended_ ? *mended_ : found_.models[handed]);
     for (const diagnose::BenchFault& fault : result_.bench)
       for (std::size_t i = 0; i < fault.loads_kg.size(); ++i)
         std::ranges::find(result_.runs, fault.runs[i], &diagnose::RunGap::id)->estimated_load_kg =
@@ -285,6 +296,7 @@ class HandingOver {
   std::vector<Eigen::VectorXd> left_;  ///< by each model of the table, where runs are held out
   std::vector<double> rms_;
   Experiment experiment_;
+  std::optional<Model> mended_;  ///< what is handed over where loads differ
   Diagnosis result_;
 };
 

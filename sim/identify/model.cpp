@@ -154,8 +154,8 @@ Model::Here Model::here() const {
            (stepped ? quadratic(at).promised() : 0.0);
   };
   const Error as_it_stands =
-      begun.fitted(left, Eigen::MatrixXd(left.size(), 0), Eigen::VectorXd(), {1.0, 0.5}).first;
-  const Error after_a_step = begun.fitted(left, slopes, of_prior, {1.0, 0.5}).first;
+      begun.fitted_anew(left, Eigen::MatrixXd(left.size(), 0), Eigen::VectorXd());
+  const Error after_a_step = begun.fitted_anew(left, slopes, of_prior);
   const double stands = laplace(as_it_stands, false);
   return {stands, std::max(stands, laplace(after_a_step, true)), after_a_step.explains()};
 }

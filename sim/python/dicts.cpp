@@ -142,11 +142,13 @@ BadDict::BadDict(std::vector<input::Problem> problems, Paths paths)
 
 void DictText::refuse(const std::vector<input::Problem>& problems) const {
   BadDict::Paths at;
-  for (const auto& problem : problems) {
-    const std::size_t line = problem.file == name ? problem.place.line : 0;
-    at.push_back(line > 0 && line <= paths.size() ? std::optional(paths[line - 1]) : std::nullopt);
-  }
+  for (const auto& problem : problems) at.push_back(path_of(problem));
   throw BadDict(problems, at);
+}
+
+std::optional<std::string> DictText::path_of(const input::Problem& problem) const {
+  const std::size_t line = problem.file == name ? problem.place.line : 0;
+  return line > 0 && line <= paths.size() ? std::optional(paths[line - 1]) : std::nullopt;
 }
 
 std::string path_of(const py::object& from) {

@@ -34,6 +34,8 @@ struct DictText {
   std::string text{};
   std::vector<std::string> paths{};
 
+  /// The path of what a problem is about; none of one in another file.
+  std::optional<std::string> path_of(const input::Problem& problem) const;
   /// What a reader found in it.
   [[noreturn]] void refuse(const std::vector<input::Problem>& problems) const;
 };

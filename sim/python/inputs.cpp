@@ -94,8 +94,12 @@ Scenario scenario_of(const py::object& from, const std::filesystem::path& folder
         return input::read_scenario(path, problems);
       });
   Scenario scenario{std::move(read), std::filesystem::absolute(start), {}};
+  const DictText dict = py::isinstance<py::dict>(from)
+                            ? text_of(from.cast<py::dict>(), "scenario", schema_for(from))
+                            : DictText{};
   for (const auto& problem : problems)
-    scenario.warnings.push_back(input::where(problem) + ": " + problem.message);
+    scenario.warnings.push_back(dict.path_of(problem).value_or(input::where(problem)) + ": " +
+                                problem.message);
   warn(scenario.warnings);
   return scenario;
 }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/diagnose/experiment.hpp>
 #include <sim/identify/diagnosis.hpp>
 #include <sim/identify/held_out.hpp>
 #include <sim/identify/screen.hpp>
@@ -169,6 +170,27 @@ TEST(HandedOver, WhichRunHasAnotherLoadAndWhichItIs) {
   EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;  // of the rig
   EXPECT_TRUE(found.because.starts_with("The load of run r03 is ")) << found.because;
   EXPECT_TRUE(holds(found.because, "kg less than written (in the data set: load: 16.1", "Apart from that"));
+}
+
+// What a model of which all loads may differ had left to each of them was in no file: 0.3 mm in all runs.
+TEST(HandedOver, ARigThatMeetsTheDataWithTheLoadsAsTheyAreReported) {
+  domain::Dataset data = diagnose::small(with_a_leak());
+  data.runs[2].load_kg += 2.0;
+  data.runs[3].load_kg += 2.0;
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 2U) << found.because;
+  for (const diagnose::BenchFault& fault : found.bench)
+    for (domain::Run& run : data.runs)
+      if (run.id == fault.runs.front()) run.load_kg = fault.loads_kg.front();
+  const std::vector<std::vector<bool>> masked(data.runs.size(),
+                                              std::vector<bool>(data.runs.front().judged().size(), false));
+  const diagnose::Experiment mended(data, masked, 2);
+  for (std::size_t run = 0; run < data.runs.size(); ++run) {
+    const Eigen::VectorXd off =
+        mended.residuals(mended.readings(found.corrected, {run}).front(), run);  // in floors
+    EXPECT_LT(std::abs(off.mean()), 0.5) << data.runs[run].id;
+    EXPECT_LT(std::sqrt(off.squaredNorm() / static_cast<double>(off.size())), 1.5) << data.runs[run].id;
+  }
 }
 
 // They had come to their loads each by itself, as far as only one deviated from all others by 0.7 g.
@@ -342,6 +364,20 @@ TEST(HandedOver, LabelsThatWereExchangedFarApartAloneAndWithTheirLoads) {
   EXPECT_EQ(found.runs[0].estimated_load_kg, 11.138);
   EXPECT_EQ(found.runs[5].estimated_load_kg, 23.406);
   EXPECT_FALSE(found.runs[1].estimated_load_kg);
+}
+
+// Another muscle would be as good for the factor; the one label that is off besides is wrong with any.
+TEST(HandedOver, LoadsThatAreOffByAFactorAndOneBesides) {
+  domain::Dataset data = diagnose::small({});
+  const double true_kg = data.runs[0].load_kg;
+  for (domain::Run& run : data.runs) run.load_kg *= 1.25;
+  data.runs[0].load_kg += 4.0;
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 2U) << found.because;
+  EXPECT_EQ(found.bench[0].runs, std::vector{data.runs[0].id});
+  EXPECT_NEAR(found.bench[0].loads_kg.front(), true_kg, 0.05 * true_kg);
+  EXPECT_TRUE(found.bench[1].words.starts_with("the loads of all other runs are less")) << found.because;
+  EXPECT_EQ(found.bench[1].runs.size(), data.runs.size() - 1);
 }
 
 }  // namespace

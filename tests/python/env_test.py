@@ -44,7 +44,7 @@ class Env(unittest.TestCase):
     def test_loads_are_of_the_rig_if_left_out(self):
         for rig in ("thesis", "festo_dmsp_5", "festo_dmsp_40"):
             env = mckibben.Env(rig, duration_s=3.0)
-            self.assertEqual(env.loads_kg, (0.5 * mckibben.Rig(rig).usual_load_kg, 1.5 * mckibben.Rig(rig).usual_load_kg))
+            self.assertEqual(env.loads_kg, (0.75 * mckibben.Rig(rig).usual_load_kg, 1.5 * mckibben.Rig(rig).usual_load_kg))
             env.reset(seed=1, options={"load_kg": env.loads_kg[1]})
             for _ in range(240):
                 info = env.step([1.0])[4]
@@ -133,8 +133,8 @@ class Env(unittest.TestCase):
             mckibben.Env(rig=3)
         for key, value, said in (
                 ("rig", [], "rig: a list of one at least"), ("target", [], "target: a list of one at least"),
-                ("loads_kg", (5.0,), r"loads_kg = \(5.0,\): two masses are wanted, the lightest and the heaviest"),
-                ("loads_kg", 11.0, "loads_kg = 11.0: two"), ("loads_kg", ("8 kg", 9.0), r"loads_kg\[0\] = '8 kg': must be a number"),
+                ("loads_kg", (5.0,), r"loads_kg = \(5.0,\): one mass, or the lightest and the heaviest"),
+                ("loads_kg", -11.0, "loads_kg.*-11"), ("target", numpy.zeros(5), "target: numbers need their times: {'kind': 'points'"), ("loads_kg", ("8 kg", 9.0), r"loads_kg\[0\] = '8 kg': must be a number"),
                 ("loads_kg", (8.0, numpy.nan), r"loads_kg\[1\] = nan: must be a number from 0 to 500 kg"),
                 ("jitter", -1, "jitter = -1: must be a number from 0 to 1"), ("jitter", "1e-3", "jitter = '1e-3'"),
                 ("duration_s", "6 s", "duration_s = '6 s': must be a number from 0.0001 to 3600 s")):

@@ -67,8 +67,8 @@ class Env(Base):
     def __init__(self, rig="thesis", loads_kg=None, target=None, duration_s=12.0, jitter=0.0, render_mode=None):
         """`rig`, `target` (as in scenario files; of a pair an angle): one, a list of which each episode draws one, or a
         function that makes one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s, of a
-        pair from -15 to 15 deg. `loads_kg`: between these each episode draws its load; if left out,
-        half to one and a half of the rig's `usual_load_kg`.
+        pair from -15 to 15 deg. `loads_kg`: a load, or two between which each episode draws its
+        own; if left out, three quarters to one and a half of the rig's `usual_load_kg`.
         `jitter`: root mean square of what shakes the reading, as a contraction ratio [1] or an angle [rad].
         Nothing is rendered: plot `history`. Raises InputError, ValueError."""
         _no_rendering(render_mode)

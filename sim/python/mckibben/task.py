@@ -44,7 +44,9 @@ def one_of(name, several, random):
             raise ValueError(f"{name}: the function that draws it failed, called with a numpy.random.Generator: "
                              f"{type(error).__name__}: {error}") from error
     if isinstance(several, (list, tuple)):
-        return several[int(random.integers(len(several)))]
+        several = several[int(random.integers(len(several)))]
+    if name == "target" and isinstance(several, (numpy.ndarray, numbers.Real)):
+        raise ValueError("target: numbers need their times: {'kind': 'points', 'points': [{'at': '0 s', 'to': 0.1}, {'at': '1 s', 'to': 0.12}]}")
     return several
 
 
@@ -90,9 +92,11 @@ class Task:
                              "{'kind': 'sine', 'mean': '0 deg', 'amplitude': f'{random.uniform(5, 15)} deg', 'period': '4 s'}")
         if loads_kg is None:
             usual_kg = min(one.usual_load_kg for one in made)
-            loads_kg = 0.5 * usual_kg, 1.5 * usual_kg
+            loads_kg = 0.75 * usual_kg, 1.5 * usual_kg  # friction holds lighter ones above the lowest of TARGET
+        if isinstance(loads_kg, numbers.Real):
+            loads_kg = loads_kg, loads_kg
         if isinstance(loads_kg, str) or numpy.shape(loads_kg) != (2,):
-            raise ValueError(f"loads_kg = {loads_kg!r}: two masses are wanted, the lightest and the heaviest, such as (8.0, 23.0)")
+            raise ValueError(f"loads_kg = {loads_kg!r}: one mass, or the lightest and the heaviest, such as (8.0, 23.0)")
         self.loads_kg = tuple(sorted(self.load(f"loads_kg[{i}]", load) for i, load in enumerate(loads_kg)))
         default = self.PAIR_TARGET if self.pair else self.TARGET
         self.target = default if target is None else target
