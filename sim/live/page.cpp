@@ -21,7 +21,11 @@ Json dial_json(const Dial& dial) {
 }
 
 Json switch_json(const Switch& one) {
-  Json json{{"name", one.name}, {"says", one.sentence}, {"law", one.law}, {"size", dial_json(one.size)}};
+  Json json{{"name", one.name},
+            {"says", one.sentence},
+            {"law", one.law},
+            {"size", dial_json(one.size)},
+            {"plain_sizes", one.plain_sizes()}};
   if (one.has_shape()) json["shape"] = dial_json(one.shape);
   return json;
 }

@@ -117,15 +117,15 @@ function dialOf(one, which, label) {
 /** As words: "muscle leak", "bladder elasticity linear". */
 const inWords = (name) => name.replaceAll('_', ' ');
 
-/** For lessons: the program lets one act that is not shown, at up to twice its size at first. */
+/** For lessons: the program lets one act that is not shown, plain enough to be seen. */
 const hidden = () => live.state.hidden;
 function hideOne() {
   const off = live.state.effects.filter(({on}) => !on);
-  const {name, size, shape} = off[Math.floor(Math.random() * off.length)];
-  const {size: dial} = report.switches.find((one) => one.name === name);
-  const times = 1 + Math.random();
-  const large = Math.min(dial.most, Math.max(dial.least, times * size));
-  ask('hide', {do: 'hide', name, size: large, shape: shape ?? 0}, byId('hide'));
+  const oneOf = (list) => list[Math.floor(Math.random() * list.length)];
+  const {name, shape} = oneOf(off);
+  const [near, far] = oneOf(report.switches.find((one) => one.name === name).plain_sizes);
+  const size = near + Math.random() * (far - near);
+  ask('hide', {do: 'hide', name, size, shape: shape ?? 0}, byId('hide'));
 }
 function showHidden() {
   const one = hidden() !== '';

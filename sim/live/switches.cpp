@@ -90,6 +90,16 @@ std::string out_of_range(std::string_view what, double value, double low, double
   return fmt::format("{} = {:g}{}: must be from {:g} to {:g}{}", what, value, of, low, high, of);
 }
 
+std::vector<std::pair<double, double>> Switch::plain_sizes() const {
+  std::vector<std::pair<double, double>> sides;
+  for (const double side : {candidate.typical, -candidate.typical}) {
+    const double near = absent + side;
+    if (near >= size.least && near <= size.most)
+      sides.emplace_back(near, std::clamp(near + side, size.least, size.most));
+  }
+  return sides;
+}
+
 Switches::Switches(const plant::Rig& rig) : bare_(rig), file_(rig) {
   for (const diagnose::Candidate& candidate : diagnose::catalogue()) {
     if (!candidate.adds_to.empty()) continue;  // a law with one term more: too much for one dial

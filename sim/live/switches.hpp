@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <plant/rig.hpp>
@@ -33,6 +34,8 @@ struct Switch {
   diagnose::Candidate candidate{};
 
   bool has_shape() const { return !candidate.shape.empty(); }
+  /// From one to two typical sizes away from none, to each side on which there are any: what may be hidden.
+  std::vector<std::pair<double, double>> plain_sizes() const;
 };
 
 class Switches {

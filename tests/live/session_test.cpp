@@ -171,6 +171,26 @@ TEST(LiveSession, AnEffectThatIsHiddenActsAloneAndStaysHiddenUntilItIsShown) {
   EXPECT_EQ(session.set_effect("muscle_leak", true, 1e-10, 0.0), "");
 }
 
+TEST(LiveSession, WhatIsHiddenIsOfTypicalSizeOrMoreToOneSide) {
+  const Session fresh(plant::Rig{}, load_kg);
+  for (const char* const name : {"speed_dependent_friction", "encoder_scale", "friction_warm_up"})
+    EXPECT_EQ(fresh.switches().find(name)->plain_sizes().size(), 2U) << name;
+  for (const Switch& one : fresh.switches().all()) {
+    const auto sides = one.plain_sizes();
+    EXPECT_FALSE(sides.empty()) << one.name;
+    for (const auto& [near, far] : sides) {
+      const double typical = one.candidate.typical * (1.0 - 1e-9);
+      EXPECT_GE(std::abs(near - one.absent), typical) << one.name;
+      EXPECT_GE(std::abs(far - one.absent), typical) << one.name;
+      EXPECT_GE((near - one.absent) * (far - one.absent), 0.0) << one.name;
+      for (const double size : {near, far}) {
+        Session session(plant::Rig{}, load_kg);
+        EXPECT_EQ(session.hide_effect(one.name, size, one.shape.value), "");
+      }
+    }
+  }
+}
+
 TEST(LiveSession, TooHeavyALoadIsRefused) {
   plant::Rig rig;
   rig.muscle.stop_stiffness_N_per_m = 1e4;
