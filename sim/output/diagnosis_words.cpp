@@ -227,8 +227,12 @@ std::string explained_by(const diagnose::Explanation& explanation) {
 }
 
 std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis) {
-  // With a fault of the bench neither says anything.
-  if (diagnosis.gap.recalibrated_rmse <= diagnosis.gap.nominal_rmse || !diagnosis.bench.empty()) return "";
+  // With a fault of the bench neither says anything; where nothing is missing, or the difference is within
+  // noise, there is nothing to explain.
+  const auto& gap = diagnosis.gap;
+  if (gap.recalibrated_rmse <= std::hypot(gap.nominal_rmse, gap.noise_floor) || !diagnosis.bench.empty() ||
+      diagnosis.verdict == diagnose::Verdict::nothing_missing)
+    return "";
   return "The recalibrated rig is worse than the nominal one: its parameters maximise the probability of the "
          "other runs, not this rms, and a model that lacks something predicts poorly what it was not fitted "
          "to.";

@@ -191,7 +191,15 @@ TEST(DiagnosisTable, SaysWhyTheRecalibratedRigIsWorseOnlyWhereItIs) {
   EXPECT_TRUE(lacks(table_of(measured(), found), "worse than the nominal"));
   found.gap.recalibrated_rmse = 2.0 * found.gap.nominal_rmse;
   EXPECT_TRUE(holds(table_of(measured(), found), "worse than the nominal", "not this rms"));
+  const diagnose::Diagnosis worse = found;
   found.bench = {{.name = "loads_differ", .runs = {"r05"}}};
+  EXPECT_TRUE(lacks(table_of(measured(), found), "worse than the nominal"));
+  found = worse;
+  found.verdict = diagnose::Verdict::nothing_missing;
+  EXPECT_TRUE(lacks(table_of(measured(), found), "worse than the nominal"));
+  found = worse;
+  found.gap.noise_floor = found.gap.nominal_rmse;
+  found.gap.recalibrated_rmse = 1.03 * found.gap.nominal_rmse;
   EXPECT_TRUE(lacks(table_of(measured(), found), "worse than the nominal"));
 }
 
