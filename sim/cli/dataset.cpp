@@ -206,7 +206,7 @@ std::string hidden_in_words(const domain::Campaign& campaign) {
 int make_campaign(const DatasetOptions& options, const domain::Campaign& campaign) {
   const auto where = place_of(options, campaign, {"", "-truth", ".unfinished", ".ranks"});
   domain::Campaign nameless = campaign;  // the name may tell what is hidden
-  nameless.name = "dataset";
+  nameless.name = "Data set";
   cluster::Workplace place(where.string() + ".ranks", cluster::crew(), say);
   const output::CampaignFolder folder(where, campaign, options.formats,
                                       place.crew().leads() ? output::Say(say) : nullptr);

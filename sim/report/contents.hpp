@@ -85,6 +85,7 @@ struct Contents {
   std::vector<Chapter> chapters{};        ///< before the runs
   std::vector<Chapter> later_chapters{};  ///< after them
   bool short_on_paper = false;            ///< runs are printed only where the reader asks for all
+  bool handed_out = false;                ///< others get it: called as its folder, nothing about effects
   bool lengths = true;                    ///< it has some, and the reader may choose their unit
   plant::Rig rig{};                       ///< as it is drawn
   bool gauge = false;                     ///< muscle pressure was measured

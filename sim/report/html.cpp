@@ -204,8 +204,9 @@ std::string html_of(const Contents& contents) {
   if (runs) html += "<script>document.documentElement.classList.add('live')</script>\n";
   html += "</head>\n<body>\n<main>\n";
   if (contents.lengths) html += unit_switch;
-  html += fmt::format("<p class='small'>{}</p>\n<h1>{}</h1>\n<p class='lead'>{}</p>\n",
-                      escaped(contents.about), escaped(contents.title), contents.sentence);
+  html +=
+      fmt::format("<p class='small'>{}</p>\n<h1{}>{}</h1>\n<p class='lead'>{}</p>\n", escaped(contents.about),
+                  contents.handed_out ? " id='of-folder'" : "", escaped(contents.title), contents.sentence);
   html += contents.opening;
   html += "<div class='wide result' tabindex='0'>\n" + contents.table + "</div>\n";
   html += warnings_html(contents);

@@ -177,3 +177,4 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
 }
 
 }  // namespace mckibben::report
+      .handed_out = true,

@@ -231,5 +231,10 @@ for (const [when, paper] of [['beforeprint', true], ['afterprint', false]])
     document.documentElement.classList.toggle('paper', paper);
     makePlots(zoomNow());
   });
+// Equal data have equal bytes, whatever their folder is called: only the page that is looked at knows.
+if (byId('of-folder')) {
+  const folder = decodeURIComponent(location.pathname).split('/').at(-2);
+  if (folder) byId('of-folder').textContent = document.title = folder;
+}
 showGroup(0);
 stop();

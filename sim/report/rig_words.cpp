@@ -145,7 +145,7 @@ std::string rig_html(const Contents& contents) {
   for (const plant::Sensor& other : rig.sensors)
     if (&other != &rig.sensors.position() && &other != gauge)
       part(in_words(name_of(other.kind)).c_str(), sensor(other));
-  part("effects", effects(rig.effects));
+  if (!contents.handed_out) part("effects", effects(rig.effects));
   return html + "</dl>\n";
 }
 

@@ -307,6 +307,8 @@ test('a replay shows measured against simulated, run by run', async () => {
 test('a data set shows what was measured and nothing else; of many runs three at first', async () => {
   const {page, close: done, complaints, requests, url} = await open('campaign');
   const csv = table('campaign/m2_sine_r10.csv');
+  assert.equal(await page.title(), 'campaign');
+  assert.equal(await page.textContent('h1'), 'campaign');
   await page.click('tr[data-group=\'1\'] th');
   const shown = () =>
       page.evaluate(() => view.plots[0].chart.series.slice(1).filter((one) => one.show).length);

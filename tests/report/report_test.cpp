@@ -333,6 +333,8 @@ TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
   const std::string html = rig_html(contents);
   EXPECT_TRUE(holds(html, "200 mm in radius", "0 to 20 mA", "on the muscle", "<dd>muscle_leak"));
 }
+  contents.handed_out = true;
+  EXPECT_TRUE(lacks(rig_html(contents), "effects", "muscle_leak"));
 
 TEST(RigWords, TellOfTwoMusclesAndTheirLink) {
   Contents contents;
