@@ -117,6 +117,9 @@ function dialOf(one, which, label) {
 /** As words: "muscle leak", "bladder elasticity linear". */
 const inWords = (name) => name.replaceAll('_', ' ');
 
+/** Beside the list of guesses. */
+const answer = (text) => { byId('answer').textContent = text; };
+
 /** For lessons: the program lets one act that is not shown, plain enough to be seen. */
 const hidden = () => live.state.hidden;
 function hideOne() {
@@ -136,7 +139,7 @@ function showHidden() {
   byId('guess').value = '';
   const others = pair ? '' : ' and another load';
   if (one)
-    say('One effect is at work. Look at the loops, and choose which one it is. ' +
+    answer('One effect is at work. Look at the loops, and choose which one it is. ' +
         `If nothing shows, try stairs${others}.`);
 }
 
@@ -155,12 +158,12 @@ function offer(right) {
 }
 function guess(name) {
   if (name === '') return;
-  if (name !== hidden()) return say(`It is not ${inWords(name)}.`);
+  if (name !== hidden()) return answer(`It is not ${inWords(name)}.`);
   reveal('Right: ');
 }
 function reveal(before) {
   const {name, says} = effectOf(hidden());
-  say(`${before}${inWords(name)}, ${says}.`);
+  answer(`${before}${inWords(name)}, ${says}.`);
   ask('show', {do: 'show'}, byId('give-up'));
 }
 

@@ -130,7 +130,7 @@ std::vector<Picture> where_pictures(const Diagnosis& diagnosis, const plant::Rig
 }
 
 std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::Rig& rig) {
-  constexpr double x0 = 212.0, span = 200.0, least_share = 0.01;
+  constexpr double x0 = 212.0, span = 200.0, digit_px = 7.0, least_share = 0.01;
   // What a fit made of it; where there is none, what the score promises.
   const auto fall = [](const diagnose::Ranked& one) { return one.refitted ? one.fall : one.score; };
   double most = 10.0 * diagnose::thresholds.tell.chance;
@@ -160,8 +160,9 @@ std::vector<Picture> ranking_pictures(const Diagnosis& diagnosis, const plant::R
       const double end = length(fall(*one)), reach = promised ? length(one->score) : end;
       if (promised) bars += bar(x0, y + 2, reach, 13.0, "empty");
       bars += bar(x0, y + 2, end, 13.0, !one->refitted ? "empty" : taken ? "bar c0" : "bar");
-      bars += label(x0 + reach + 5, y + 13, "start",
-                    in_digits(fall(*one)) + (promised ? " of " + in_digits(one->score) : ""), "soft halo");
+      const std::string words = in_digits(fall(*one)) + (promised ? " of " + in_digits(one->score) : "");
+      const bool fits = x0 + reach + 5 + digit_px * static_cast<double>(words.size()) < width;
+      bars += label(fits ? x0 + reach + 5 : width - 4, y + 13, fits ? "start" : "end", words, "soft halo");
       y += 21.0;
       if (!one->refitted) continue;
       bars += marked_label(width - 4, y + 7, "end",

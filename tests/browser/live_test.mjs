@@ -111,7 +111,7 @@ test('it opens moving, and an effect that is hidden stays so until a guess finds
     await until(each, () => !document.getElementById('guess-line').hidden);
     assert.equal(await each.locator('.switch input:checked, .switch.on').count(), 0);
     assert.match(
-        await each.textContent('#message'), /^One effect is at work.*try stairs and another load\.$/);
+        await each.textContent('#answer'), /^One effect is at work.*try stairs and another load\.$/);
     assert.ok(await each.locator('#all-off').isDisabled());
   }
   const offered = async (each) =>
@@ -123,10 +123,10 @@ test('it opens moving, and an effect that is hidden stays so until a guess finds
   assert.deepEqual(await offered(other.page), [first, others]);
   assert.equal(first.length + others.length, await page.locator('.switch').count());
   await page.selectOption('#guess', wrong);
-  assert.equal(await page.textContent('#message'), `It is not ${wrong.replaceAll('_', ' ')}.`);
+  assert.equal(await page.textContent('#answer'), `It is not ${wrong.replaceAll('_', ' ')}.`);
   await page.selectOption('#guess', right);
   assert.match(
-      await page.textContent('#message'), new RegExp(`^Right: ${right.replaceAll('_', ' ')}, .*[0-9]`));
+      await page.textContent('#answer'), new RegExp(`^Right: ${right.replaceAll('_', ' ')}, .*[0-9]`));
   for (const each of [page, other.page]) {
     await until(each, () => document.getElementById('guess-line').hidden);
     assert.equal(await each.locator('.switch.on').getAttribute('data-effect'), right);
@@ -183,6 +183,19 @@ test('plots follow the window, narrower and wider', async () => {
     const [whole, inner] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
     assert.ok(whole <= inner, `${whole} > ${inner}`);
   }
+  await end();
+});
+
+test('sizes and shapes of effects are not cut off', async () => {
+  const {page, end} = await live({viewport: {width: 1400, height: 900}});
+  const row = page.locator('.switch[data-effect=\'bladder_creep\']');
+  await row.locator('input[type=checkbox]').check();
+  await row.locator('[data-dial=shape]').waitFor();
+  const [whole, inner] = await page.evaluate(() => {
+    const {scrollWidth, clientWidth} = document.getElementById('switches');
+    return [scrollWidth, clientWidth];
+  });
+  assert.ok(whole <= inner, `${whole} > ${inner}`);
   await end();
 });
 

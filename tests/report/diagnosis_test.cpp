@@ -193,6 +193,7 @@ TEST(DiagnosisPictures, WhatWasTakenLiesBeyondChance) {
   const std::string promised = ranking_pictures(found, {}).front().svg;
   EXPECT_TRUE(holds(promised, "width='200.0' height='13.0' class='empty'",
                     "width='100.0' height='13.0' class='bar c0'", ">10000 of 100000000<"));
+  EXPECT_TRUE(holds(promised, "<text x='456.0' y='13.0' text-anchor='end' class='soft halo'>10000 of"));
 }
 
 TEST(DiagnosisPage, AsksForNothingMoreOnlyWhereNothingIsLeft) {
