@@ -50,6 +50,8 @@ input::Json drawn_rig_json(const plant::Rig& rig, bool gauge) {
                      {"unit", name_of(rig.command_unit())},
                      {"zero", rig.valve.zero_command},
                      {"span", rig.valve.span_command}};
+  if (rig.valve.is_on_off())
+    json["command"]["shut"] = rig.valve.closed_command().value_or(rig.valve.zero_command);
   if (const plant::Pair* pair = rig.pair())
     json["pair"] = {{"hangs_at_rad", pair->hangs_at_rad}, {"opposite", muscle_json(pair->opposite.muscle)}};
   if (const plant::Lever* lever = rig.lever()) json["lever"] = lever_json(*lever, rig.joint);

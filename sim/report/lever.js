@@ -107,7 +107,7 @@ class LeverPicture {
             '' :
             `M${pivot.x} ${pivot.y}L${at(this.reach, (wanted * Math.PI) / 180)}`);
     this.valve.draw(values);
-    this.muscle.fill(values.muscle_pressure ?? values.reference_pressure);
+    this.muscle.fill(values.muscle_pressure ?? values.reference_pressure ?? 0);
     write(this.numbers, `joint angle ${fixed(values.angle, 1)}°`);
     write(this.lengths, `muscle ${(1e3 * shape.length).toFixed(1)} mm`);
   }

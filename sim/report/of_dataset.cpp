@@ -83,6 +83,14 @@ Run shown_of_lever(const domain::Run& measured, std::size_t style, const plant::
   return run;
 }
 
+/// What is shown of a run of a group, without pressures that are not asked for.
+Run asked_for(Run run, const plant::Rig& rig) {
+  if (!asks_for_pressure(rig))
+    std::erase_if(run.quantities,
+                  [](const Quantity& one) { return one.key.starts_with("reference_pressure"); });
+  return run;
+}
+
 /// What runs that belong together come to, and how far: a contraction ratio, or angles of a pair.
 struct Counted {
   std::size_t runs = 0, rows = 0;
@@ -112,9 +120,11 @@ void add_parts(Contents& contents, const domain::Campaign& campaign, const std::
     for (const run::EndedRun& run : ended) {
       if (!run.failure.empty() || (pair ? run.job.current != i : run.job.load_kg != load_kg)) continue;
       const domain::Run& measured = *std::ranges::find(dataset.runs, run.job.id, &domain::Run::id);
-      group.runs.push_back(pair    ? shown_of_pair(measured, part.runs, rig)
-                           : angle ? shown_of_lever(measured, part.runs, plant::plant_of(rig, load_kg))
-                                   : shown(measured, part.runs, plant::Plant(rig, load_kg)));
+      group.runs.push_back(asked_for(pair ? shown_of_pair(measured, part.runs, rig)
+                                     : angle
+                                         ? shown_of_lever(measured, part.runs, plant::plant_of(rig, load_kg))
+                                         : shown(measured, part.runs, plant::Plant(rig, load_kg)),
+                                     rig));
       group.ticks = std::max(group.ticks, group.runs.back().ticks);
       part.add({1, group.runs.back().ticks,
                 angle ? run.angle_rad : run::Span{0.0, std::ranges::max(measured.contraction_ratio)}});
@@ -167,14 +177,16 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
       .beside =
           "Every number of every tick is in the CSV files of this folder; input and versions are in "
           "campaign.json, the truth and hashes in a folder of its own.",
+      .handed_out = true,
       .lengths = !dataset.rig.has_angle(),
       .rig = dataset.rig,
       .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
       .plots = measured_plots(dataset.rig, pair),
-      .loops = measured_loops(pair)};
+      .loops = measured_loops(dataset.rig, std::ranges::any_of(dataset.runs, [](const domain::Run& run) {
+                                return run.muscle_pressure_Pa.has_value();
+                              }))};
   add_parts(contents, campaign, ended, dataset);
   return html_of(contents);
 }
 
 }  // namespace mckibben::report
-      .handed_out = true,

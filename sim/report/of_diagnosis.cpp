@@ -107,10 +107,11 @@ void add_given(Group& group, const domain::Run& recorded, const plant::Rig& rig)
   if (!recorded.current_mA.empty()) {
     group.given.push_back(
         {plant::command_key(rig), [&recorded](std::size_t k) { return recorded.current_mA[k]; }});
-    group.given.push_back(
-        {"reference_pressure", [&recorded, plant = plant::Plant(rig, recorded.load_kg)](std::size_t k) {
-           return plant.reference_pressure_Pa(recorded.current_mA[k]) / 1e5;
-         }});
+    if (asks_for_pressure(rig))
+      group.given.push_back(
+          {"reference_pressure", [&recorded, plant = plant::Plant(rig, recorded.load_kg)](std::size_t k) {
+             return plant.reference_pressure_Pa(recorded.current_mA[k]) / 1e5;
+           }});
   }
   if (const auto* force_N = recorded.beside(domain::Beside::force))
     group.given.push_back({"given_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
@@ -203,20 +204,26 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
 
 std::vector<Loop> loops_of_runs(const domain::Dataset& data) {
   if (data.rig.pair() != nullptr) return loops_of(data.rig, {.pair = true});
+  const LoopOver over = loop_over(data.rig, gauged(data));
+  const auto against = [&over](const char* what, const char* key, const std::string& label) {
+    return Loop{"asked",
+                fmt::format("{} and {}", what, over.words),
+                over.key,
+                key,
+                over.label,
+                label,
+                false,
+                over.key,
+                std::string("given_") + key};
+  };
   if (data.rig.lever() != nullptr)
-    return {{"asked", "Joint angle and commanded pressure", "reference_pressure", "angle",
-             "commanded pressure in bar", "joint angle in deg", false, "reference_pressure", "given_angle"},
-            loops_of(data.rig, {}).front()};
+    return {against("Joint angle", "angle", "joint angle in deg"), loops_of(data.rig, {}).front()};
   if (data.judged() == diagnose::Judged::pressure)
-    return {{"asked", "Pressure and commanded pressure", "reference_pressure", "muscle_pressure",
-             "commanded pressure in bar", "pressure in bar", false, "reference_pressure",
-             "given_muscle_pressure"}};
+    return {against("Pressure", "muscle_pressure", "pressure in bar")};
   if (data.force_is_judged())
     return {{"force", "Force and pressure", "muscle_pressure", "force", "muscle pressure in bar",
              "force in N", false, "muscle_pressure", "given_force"}};
-  return {{"asked", "Contraction and commanded pressure", "reference_pressure", "contraction_ratio",
-           "commanded pressure in bar", std::string(ratio_unit), false, "reference_pressure",
-           "given_contraction_ratio"},
+  return {against("Contraction", "contraction_ratio", std::string(ratio_unit)),
           loops_of(data.rig, {}).front()};
 }
 

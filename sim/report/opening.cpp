@@ -14,6 +14,7 @@
 #include <sim/output/svg.hpp>
 #include <sim/report/diagnosis_chapters.hpp>
 #include <sim/report/opening.hpp>
+#include <sim/report/quantities.hpp>
 #include <sim/report/rig_parts.hpp>
 #include <sim/report/sheet.hpp>
 #include <sim/report/still.hpp>
@@ -149,7 +150,9 @@ std::string what_it_does(const domain::Dataset& data, const Diagnosis& diagnosis
                          output::Panel panel) {
   constexpr double plain = 0.12, period_s = 20.0;
   const auto current = std::ranges::find(run.given, plant::command_key(data.rig), &Quantity::key);
-  if (current == run.given.end() || data.judged() != diagnose::Judged::contraction) return "";
+  if (current == run.given.end() || data.judged() != diagnose::Judged::contraction ||
+      !asks_for_pressure(data.rig))
+    return "";
   controllers::TriangleCurrent up_and_down{.low_mA = data.rig.valve.zero_command, .period_s = period_s};
   up_and_down.high_mA = up_and_down.low_mA;
   for (std::size_t k = 0; k < run.ticks; ++k)
@@ -226,10 +229,11 @@ std::vector<Picture> pictures_of(const domain::Dataset& data, const Diagnosis& d
 
 std::string caption_of(const Diagnosis& diagnosis, const Group& run) {
   return fmt::format("{}. Below: measured less model, and the noise floor as a band.{}", run.name,
-                     found_in(diagnosis).empty() ? ""
-                     : output::rig_changed(diagnosis)
+                     found_in(diagnosis).empty()       ? ""
+                     : !output::rig_changed(diagnosis) ? " Right: where the bench is at fault."
+                     : asks_for_pressure(diagnosis.corrected)
                          ? " Right: where the effect acts, and a slow loop without it (wide) and with it."
-                         : " Right: where the bench is at fault.");
+                         : " Right: where the effect acts.");
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ class PairPicture {
       const {end} = picture.draw(of('contraction_ratio'));
       const pressure =
           of('muscle_pressure') ?? of('reference_pressure');  // without a gauge, what is asked for
-      picture.fill(pressure);
+      picture.fill(pressure ?? 0);
       cord.setAttribute('d', `M${end} ${axis}H${wheel.x}`);
       const said = [[of(command.name), 2, command.unit], [pressure, 2, 'bar'], [of('tension'), 0, 'N']];
       const known = said.filter(([value]) => value !== undefined && value !== null);

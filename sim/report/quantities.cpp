@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include <plant/geometry.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/quantities.hpp>
@@ -46,7 +48,7 @@ Plot error_of(const std::string& id, std::string title, std::string_view key) {
   return plot_of(id, std::move(title), key, {{.key = id, .label = "error", .main = true}});
 }
 
-Plot pressures_of(const PlotsOf& of) {
+Plot pressures_of(const plant::Rig& rig, const PlotsOf& of) {
   const bool pair = of.driven.pair;
   Plot plot =
       plot_of("pressures", "Pressures", "muscle_pressure", lines_of(pair, "muscle_pressure", "muscle"));
@@ -55,7 +57,8 @@ Plot pressures_of(const PlotsOf& of) {
   };
   if (of.valve_pressure || (!pair && (of.commands || of.driven.pressure[0] == plant::GivenPressure::valve)))
     add(lines_of(pair, "valve_pressure", "valve", false, "valve of muscle"));
-  if (!pair && of.commands) add({{.key = "reference_pressure", .label = "commanded"}});
+  if (!pair && of.commands && asks_for_pressure(rig))
+    add({{.key = "reference_pressure", .label = "commanded"}});
   const auto measured = [&](const std::string& key, const std::string& label, const std::string& each) {
     std::vector<Line> lines = lines_of(pair, key, label, false, each);
     for (Line& line : lines) line.given = true;
@@ -89,11 +92,24 @@ Loop pressure_loop() {
 
 }  // namespace
 
+LoopOver loop_over(const plant::Rig& rig, bool gauged, const std::string& of_muscle) {
+  const std::string of = of_muscle.empty() ? "" : "_" + of_muscle, space = of_muscle.empty() ? "" : " ";
+  const auto over = [&](const std::string& key, const std::string& words, std::string_view unit) {
+    const std::string whole = words + space + of_muscle;
+    return LoopOver{key + of, whole, fmt::format("{} in {}", whole, unit)};
+  };
+  if (asks_for_pressure(rig)) return over("reference_pressure", "commanded pressure", "bar");
+  if (gauged) return over("given_muscle_pressure", "measured muscle pressure", "bar");
+  const std::string key = plant::command_key(rig);
+  return over(key, key, name_of(rig.command_unit()));
+}
+
 std::vector<Quantity> quantities_of(const run::Recording& recording, const plant::Rig& rig) {
   const auto* rows = &recording.samples;
   std::vector<Quantity> all;
   for (const plant::Channel& channel : plant::channels_of(rig, recording.driven))
-    all.push_back({channel.key(), [rows, channel](std::size_t k) { return channel.on_page((*rows)[k]); }});
+    if (asks_for_pressure(rig) || channel.signal->key != "reference_pressure")
+      all.push_back({channel.key(), [rows, channel](std::size_t k) { return channel.on_page((*rows)[k]); }});
   if (recording.driven.pair) return all;
   const plant::Muscle& muscle = rig.muscle;
   all.push_back({"friction_coefficient", [rows, braid = plant::Braid(muscle), rigid = muscle.cord.absent(),
@@ -137,7 +153,7 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
     plots.push_back(error_of("force_error", "Force of the cord: " + of.off, "force"));
   }
   if (of.commands) plots.push_back(commands_of(rig, pair));
-  plots.push_back(pressures_of(of));
+  plots.push_back(pressures_of(rig, of));
   if (!pair && of.pressure)
     plots.push_back(error_of("muscle_pressure_error", "Error of the pressure: " + of.off, "muscle_pressure"));
   if (!pair && of.valve_pressure)
@@ -203,24 +219,24 @@ std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair) {
       plot_of("pressures", "Pressures", "muscle_pressure",
               lines_of(pair, "reference_pressure", "commanded", true, "commanded"))};
   plots.front().still = true;
+  if (!asks_for_pressure(rig)) plots.back().lines.clear();
   for (Line& line : lines_of(pair, "muscle_pressure", "gauge on the muscle", false, "gauge on muscle"))
     plots.back().lines.push_back(std::move(line));
   return plots;
 }
 
-std::vector<Loop> measured_loops(bool pair) {
-  const auto asked = [](const std::string& muscle) {
-    return Loop{"reference_" + muscle,
-                "Joint angle and commanded pressure " + muscle,
-                "reference_pressure_" + muscle,
-                "angle",
-                "commanded pressure " + muscle + " in bar",
-                "joint angle in deg"};
+std::vector<Loop> measured_loops(const plant::Rig& rig, bool gauged) {
+  const bool pair = rig.pair() != nullptr;
+  const auto driven = [&](const std::string& id, const std::string& muscle) {
+    const LoopOver over = loop_over(rig, false, muscle);
+    return Loop{id,         (pair ? "Joint angle and " : "Contraction and ") + over.words,
+                over.key,   pair ? "angle" : "contraction_ratio",
+                over.label, pair ? "joint angle in deg" : std::string(ratio_unit)};
   };
-  if (pair) return {asked("1"), asked("2"), pressure_loop("1"), pressure_loop("2")};
-  return {{"current", "Contraction and commanded pressure", "reference_pressure", "contraction_ratio",
-           "commanded pressure in bar", std::string(ratio_unit)},
-          pressure_loop()};
+  if (pair)
+    return {driven("reference_1", "1"), driven("reference_2", "2"), pressure_loop("1"), pressure_loop("2")};
+  if (gauged && !asks_for_pressure(rig)) return {pressure_loop()};
+  return {driven("current", ""), pressure_loop()};
 }
 
 }  // namespace mckibben::report

@@ -20,7 +20,19 @@ inline constexpr std::string_view beside_runs =
     "Every number of every tick is in the CSV files of this folder; "
     "input, versions and hashes are in run.json.";
 
-/// Every signal of a recording. Refers to it.
+/// Whether the valve's command is a pressure: that of valves that are open or shut asks for none.
+inline bool asks_for_pressure(const plant::Rig& rig) {
+  return !rig.valve.is_on_off();
+}
+
+/// What loops are drawn over, as it was given: the pressure asked for; where none is, what the gauge read if
+/// there is one, or else the command.
+struct LoopOver {
+  std::string key, words, label;
+};
+LoopOver loop_over(const plant::Rig& rig, bool gauged, const std::string& of_muscle = "");
+
+/// Every signal of a recording, without pressures that are not asked for. Refers to it.
 std::vector<Quantity> quantities_of(const run::Recording& recording, const plant::Rig& rig);
 
 /// What a page draws over time.
@@ -42,6 +54,6 @@ std::vector<Loop> loops_of(const plant::Rig& rig, const run::Driven& driven);
 /// The same of what is measured alone: position, currents, the pressures asked for by the valves' lines, and
 /// those of gauges where there are any.
 std::vector<Plot> measured_plots(const plant::Rig& rig, bool pair);
-std::vector<Loop> measured_loops(bool pair);
+std::vector<Loop> measured_loops(const plant::Rig& rig, bool gauged);
 
 }  // namespace mckibben::report

@@ -95,6 +95,13 @@ class MusclePicture {
   fill(bar) { this.tube.style.setProperty('--full', share(bar)); }
 }
 
+/** A command in words: of valves that are open or shut its duty. */
+function commandSays(value) {
+  const {shut, span, unit} = command;
+  if (shut === undefined) return `${fixed(value, 2)} ${unit}`;
+  return `duty ${Math.round((100 * (value - shut)) / (span - shut))} %`;
+}
+
 /** The valve with its command, and bars of the pressures. */
 class ValvePicture {
   constructor(part, floor) {
@@ -107,7 +114,7 @@ class ValvePicture {
     part('text', {class: 'soft', x: 192, y: floor - 24}).append(`0 to ${short(supply_bar)} bar`);
     this.bars = [
       ['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']
-    ].map(([name, key], i) => {
+    ].filter(([name]) => name !== 'asked' || command.shut === undefined).map(([name, key], i) => {
       const y = floor - 12 + 28 * i;
       const label = part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'});
       label.append(name);
@@ -125,7 +132,7 @@ class ValvePicture {
   draw(values) {
     write(
         this.current,
-        command.name in values ? `${fixed(values[command.name], 2)} ${command.unit}` : 'not used');
+        command.name in values ? commandSays(values[command.name]) : 'not used');
     for (const {key, name, frame, bar, text} of this.bars) {
       const absent = values[key] === undefined || values[key] === null;  // no gauge
       for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';
@@ -208,7 +215,7 @@ class RigPicture {
             '' :
             `M${x - 62} ${wheel.y + 140 - wanted * report.rig.rest_length_m * mm}h124`);
     this.valve.draw(values);
-    this.muscle.fill(values.muscle_pressure ?? values.reference_pressure);
+    this.muscle.fill(values.muscle_pressure ?? values.reference_pressure ?? 0);
     write(
         this.numbers,
         `length ${(1e3 * shape.length).toFixed(1)} mm, radius ${(1e3 * shape.radius).toFixed(2)} mm, ` +

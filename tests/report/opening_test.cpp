@@ -151,5 +151,13 @@ TEST(DiagnosisPage, PrintsItsStoryAndLeavesTheRestToTheScreen) {
   EXPECT_EQ(count(html, "<section"), count(html, "</section>"));
 }
 
+TEST(Opening, OfValvesThatAreOpenOrShutAsksForNoPressure) {
+  diagnose::Diagnosis found = diagnosed();
+  domain::Dataset data = measured_as(found);
+  for (plant::Rig* const rig : {&data.rig, &found.corrected}) rig->valve.kind = plant::ValveKind::on_off;
+  const std::string html = report_html(data, found, {}, {});
+  EXPECT_TRUE(lacks(html, "commanded pressure", "\"reference_pressure\":{", "a slow loop without it"));
+}
+
 }  // namespace
 }  // namespace mckibben::report

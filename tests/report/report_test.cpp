@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/report/html.hpp>
+#include <sim/report/in_script.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/pack.hpp>
 #include <sim/report/quantities.hpp>
@@ -332,9 +333,9 @@ TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
   contents.gauge = true;
   const std::string html = rig_html(contents);
   EXPECT_TRUE(holds(html, "200 mm in radius", "0 to 20 mA", "on the muscle", "<dd>muscle_leak"));
-}
   contents.handed_out = true;
   EXPECT_TRUE(lacks(rig_html(contents), "effects", "muscle_leak"));
+}
 
 TEST(RigWords, TellOfTwoMusclesAndTheirLink) {
   Contents contents;
@@ -354,6 +355,20 @@ AtTick friction_coefficient(const run::Recording& recording, const plant::Rig& r
   const auto all = quantities_of(recording, rig);
   const auto found = std::ranges::find(all, "friction_coefficient", &Quantity::key);
   return found != all.end() ? found->at : AtTick();
+}
+
+TEST(Quantities, ACommandThatIsNoPressureIsDrawnAsItIs) {
+  plant::Rig rig;
+  EXPECT_EQ(loop_over(rig, true).label, "commanded pressure in bar");
+  EXPECT_EQ(loop_over(rig, false, "2").label, "commanded pressure 2 in bar");
+  rig.valve.kind = plant::ValveKind::on_off;
+  EXPECT_EQ(loop_over(rig, true).label, "measured muscle pressure in bar");
+  EXPECT_EQ(loop_over(rig, false).label, "current in mA");
+  EXPECT_EQ(loop_over(rig, false, "2").key, "current_2");
+  EXPECT_EQ(measured_loops(rig, true).size(), 1u);
+  for (const Plot& plot : plots_of(rig, {}))
+    for (const Line& line : plot.lines) EXPECT_NE(line.key, "reference_pressure");
+  EXPECT_EQ(drawn_rig_json(rig, false)["command"]["shut"], 12.0);
 }
 
 TEST(Quantities, FrictionCoefficientIsFrictionOverNormalForceWhileThreadsSlide) {
