@@ -1,4 +1,5 @@
 // Rides and lines; see the header. One scale for all pictures, so that they can be laid side by side.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -86,9 +87,9 @@ std::string axes(const Ride& ride, bool gauge) {
          panel.upwards(ratios, first ? "contraction ratio" : "") + panel.frame();
 }
 
-/// A size at which the effect is plain to see, in sizes that matter to a diagnosis. Where none is in reach,
-/// as with the gas (no heat exchanged at n = 1.4), the picture shows just that.
-double telling_size(const diagnose::Candidate& law) {
+/// How many typical sizes make the effect plain to see. Where none in reach do, as with the gas (no heat
+/// exchanged at n = 1.4), the picture shows just that.
+double telling_times(const diagnose::Candidate& law) {
   struct Times {
     std::string_view effect;
     double times;
@@ -98,8 +99,8 @@ double telling_size(const diagnose::Candidate& law) {
       {"polytropic_gas", 2.0}, {"speed_dependent_friction", 2.0}, {"supply_droop", 20.0},
       {"valve_lag", 10.0},     {"friction_warm_up", 3.0}};
   for (const auto& [effect, times] : others)
-    if (law.effect == effect) return law.absent + times * law.typical;
-  return law.own ? law.typical : law.absent + 4.0 * law.typical;
+    if (law.effect == effect) return times;
+  return law.own ? 1.0 : 4.0;
 }
 
 }  // namespace
@@ -125,6 +126,7 @@ std::vector<std::pair<double, double>> loop_of(const plant::Rig& rig, double loa
 
 std::string effect_svg(std::string_view effect, const plant::Rig& nominal) {
   std::vector<std::pair<std::string, plant::Rig>> laws;
+  double times = 1.0;
   for (const auto& law : diagnose::catalogue(nominal)) {
     if (law.effect != effect) continue;
     auto& [words, rig] =
@@ -137,7 +139,8 @@ std::string effect_svg(std::string_view effect, const plant::Rig& nominal) {
     };
     for (const auto& term : diagnose::catalogue(nominal)) {
       if (term.effect != effect || (term.variant != law.variant && term.variant != law.adds_to)) continue;
-      set(term.amplitude, telling_size(term));
+      set(term.amplitude, (law.own ? 0.0 : term.absent) + telling_times(term) * term.typical);
+      times = std::max(times, telling_times(term));
       if (!term.shape.empty()) set(term.shape, term.shapes[1]);
       for (const auto& further : term.further) set(further.path, further.value);
     }
@@ -146,12 +149,13 @@ std::string effect_svg(std::string_view effect, const plant::Rig& nominal) {
 
   constexpr std::array inks{"first", "second", "third"};
   std::string svg = svg_begin(picture_width, picture_height, 14, style) +
-                    fmt::format("<text x='12' y='22' font-weight='bold'>{}</text>\n", effect);
+                    fmt::format("<text x='12' y='22'><tspan font-weight='bold'>{}</tspan>{}</text>\n", effect,
+                                times > 1.0 ? fmt::format(" exaggerated, {:g} \u00d7 typical", times) : "");
   const auto legend = [&](double x, double y, const char* ink, double wide, const std::string& words) {
     svg += line(ink, wide, fmt::format("M{} {}h22", x, y - 5)) +
            fmt::format("<text x='{}' y='{}'>{}</text>\n", x + 30, y, words);
   };
-  legend(460, 22, "nominal", 4.0, "nominal rig");
+  legend(404, 22, "nominal", 4.0, fmt::format("nominal rig, {:g} kg", load_kg));
   for (std::size_t i = 0; i < laws.size(); ++i)
     legend(12, 44.0 + 20.0 * static_cast<double>(i), inks[i], 2.2, laws[i].first);
   const bool gauge = effect == plant::GaugeError::name;

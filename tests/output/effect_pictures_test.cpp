@@ -35,6 +35,8 @@ TEST(EffectPictures, EachHasItsLoopsBesideTheNominalOne) {
   EXPECT_EQ(lines(svg, "second"), 3);
   EXPECT_EQ(lines(svg, "third"), 3);
   EXPECT_NE(svg.find("saturating: force 40 N, ratio 0.04"), std::string::npos);
+  EXPECT_NE(svg.find("exaggerated, 4 \u00d7 typical"), std::string::npos);
+  EXPECT_NE(svg.find("nominal rig, 16.138 kg"), std::string::npos);
   EXPECT_THROW(effect_svg("residual_law"), std::invalid_argument);
 }
 
