@@ -283,6 +283,8 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
     text += section(fmt::format("on {} rigs drawn within their ± ({})", scenario.robustness.rigs,
                                 plural(comparison.drawn.size(), "number")),
                     robustness(comparison));
+  const std::string knowing = run::knowing_words(scenario);
+  if (!knowing.empty()) text += "\n" + knowing + "\n";
   return text + section(pair ? "gains tuned, for all targets" : "gains tuned", tuned) +
          section("found out by the controllers", findings(comparison)) +
          section("contraction", contraction_notes(scenario, comparison)) + section("no result", failures) +

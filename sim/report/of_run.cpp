@@ -116,6 +116,8 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   if (!comparison.unmet.empty())
     text += fmt::format(" {} of the scenario's criteria {} not met.", comparison.unmet.size(),
                         comparison.unmet.size() == 1 ? "is" : "are");
+  if (const std::string knowing = run::knowing_words(scenario); !knowing.empty())
+    text += " " + escaped(knowing) + ".";
   return text + of_given + given;
 }
 

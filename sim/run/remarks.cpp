@@ -5,6 +5,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sim/domain/number.hpp>
 #include <sim/run/remarks.hpp>
@@ -102,6 +103,21 @@ std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std
     words += fmt::format(" (with {} kg for {:.0f} %)", domain::write_kg(most->load_kg),
                          100.0 * share_at_limit(*most));
   return "stood " + words;
+}
+
+std::string knowing_words(const domain::Scenario& scenario) {
+  std::vector<std::string> names;
+  bool others = false;
+  for (const controllers::Settings& one : scenario.controllers) {
+    const std::string name = controllers::name_of(one);
+    const bool plans = controllers::part_of<controllers::PlansWithModel>(one) != nullptr;
+    if (plans && !scenario.believed.contains(name)) names.push_back(name);
+    others = others || (!plans && !domain::is_given(one));
+  }
+  if (names.empty() || !others) return "";
+  return fmt::format(
+      "{} know{} the simulated rig exactly; for a fair comparison: rig: FILE of the one you have",
+      fmt::join(names, ", "), names.size() == 1 ? "s" : "");
 }
 
 std::string counted_words(const domain::Scenario& scenario, const Comparison& comparison) {

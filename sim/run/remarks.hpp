@@ -21,6 +21,10 @@ double share_at_limit(const TrackedRun& run);
 /// time (with 8.87 kg for 31 %)". Empty below 1 %.
 std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std::string_view controller);
 
+/// Of controllers whose model is the simulated rig itself, compared with one that has no model: that they
+/// know it exactly, and the key to write. Empty if there are none.
+std::string knowing_words(const domain::Scenario& scenario);
+
 /// From when on errors count: ", from 1 s on"; empty where it is from the beginning.
 std::string counted_words(const domain::Scenario& scenario, const Comparison& comparison);
 

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <sim/report/html.hpp>
-#include <sim/report/in_script.hpp>
 #include <sim/report/length.hpp>
 #include <sim/report/pack.hpp>
 #include <sim/report/quantities.hpp>
@@ -305,21 +304,6 @@ TEST(Page, OfAValveThatTakesVoltsShowsVolts) {
       "\"command\":{\"name\":\"current\",\"title\":\"Current\",\"unit\":\"mA\",\"zero\":4.0,\"span\":20.0}"));
 }
 
-TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
-  domain::Scenario scenario;
-  scenario.loads_kg = {5.0};
-  scenario.controllers = {controllers::PidSettings{}};
-  run::Comparison comparison;
-  comparison.runs.resize(1);
-  comparison.runs[0].controller = "pid";
-  EXPECT_TRUE(lacks(report_html(scenario, comparison), "class='limits'"));
-  comparison.runs[0].limits = controllers::CurrentRange{4.0, 20.0};
-  comparison.runs[0].metrics.at_lowest_current = 0.31;
-  const std::string html = report_html(scenario, comparison);
-  EXPECT_TRUE(holds(html, "at a limit of their current for up to 31 % of the time",
-                    "<th scope='row'>5 kg</th><td>31</td>"));
-}
-
 TEST(RigWords, TellWhatTheRigHasAndWhatItHasNot) {
   Contents contents;
   plant::Rig& rig = contents.rig;
@@ -355,20 +339,6 @@ AtTick friction_coefficient(const run::Recording& recording, const plant::Rig& r
   const auto all = quantities_of(recording, rig);
   const auto found = std::ranges::find(all, "friction_coefficient", &Quantity::key);
   return found != all.end() ? found->at : AtTick();
-}
-
-TEST(Quantities, ACommandThatIsNoPressureIsDrawnAsItIs) {
-  plant::Rig rig;
-  EXPECT_EQ(loop_over(rig, true).label, "commanded pressure in bar");
-  EXPECT_EQ(loop_over(rig, false, "2").label, "commanded pressure 2 in bar");
-  rig.valve.kind = plant::ValveKind::on_off;
-  EXPECT_EQ(loop_over(rig, true).label, "measured muscle pressure in bar");
-  EXPECT_EQ(loop_over(rig, false).label, "current in mA");
-  EXPECT_EQ(loop_over(rig, false, "2").key, "current_2");
-  EXPECT_EQ(measured_loops(rig, true).size(), 1u);
-  for (const Plot& plot : plots_of(rig, {}))
-    for (const Line& line : plot.lines) EXPECT_NE(line.key, "reference_pressure");
-  EXPECT_EQ(drawn_rig_json(rig, false)["command"]["shut"], 12.0);
 }
 
 TEST(Quantities, FrictionCoefficientIsFrictionOverNormalForceWhileThreadsSlide) {

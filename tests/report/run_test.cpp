@@ -1,0 +1,63 @@
+// What the report of a run says of its controllers, and what is drawn of valves that ask for no pressure.
+#include <gtest/gtest.h>
+
+#include <sim/input/fields_json.hpp>
+#include <sim/output/run_results.hpp>
+#include <sim/report/in_script.hpp>
+#include <sim/report/quantities.hpp>
+#include <sim/report/report.hpp>
+
+#include "says.hpp"
+
+namespace mckibben::report {
+namespace {
+
+TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
+  domain::Scenario scenario;
+  scenario.loads_kg = {5.0};
+  scenario.controllers = {controllers::PidSettings{}};
+  run::Comparison comparison;
+  comparison.runs.resize(1);
+  comparison.runs[0].controller = "pid";
+  EXPECT_TRUE(lacks(report_html(scenario, comparison), "class='limits'"));
+  comparison.runs[0].limits = controllers::CurrentRange{4.0, 20.0};
+  comparison.runs[0].metrics.at_lowest_current = 0.31;
+  const std::string html = report_html(scenario, comparison);
+  EXPECT_TRUE(holds(html, "at a limit of their current for up to 31 % of the time",
+                    "<th scope='row'>5 kg</th><td>31</td>"));
+}
+
+TEST(Run, SaysWhichControllersKnowTheSimulatedRig) {
+  domain::Scenario scenario;
+  scenario.loads_kg = {5.0};
+  scenario.controllers = {controllers::ModelInverseSettings{}};
+  constexpr const char* words = "model_inverse knows the simulated rig exactly";
+  run::Comparison comparison;
+  const auto told = [&] {
+    comparison.runs.resize(scenario.controllers.size());
+    return report_html(scenario, comparison);
+  };
+  EXPECT_TRUE(lacks(told(), words)) << "nothing to compare it with";
+  scenario.controllers.emplace_back(controllers::PidSettings{});
+  EXPECT_TRUE(holds(told(), words, "rig: FILE"));
+  EXPECT_TRUE(holds(output::table_of(scenario, comparison), words));
+  scenario.believed.emplace("model_inverse", plant::Rig{});
+  EXPECT_TRUE(lacks(told(), words));
+}
+
+TEST(Quantities, ACommandThatIsNoPressureIsDrawnAsItIs) {
+  plant::Rig rig;
+  EXPECT_EQ(loop_over(rig, true).label, "commanded pressure in bar");
+  EXPECT_EQ(loop_over(rig, false, "2").label, "commanded pressure 2 in bar");
+  rig.valve.kind = plant::ValveKind::on_off;
+  EXPECT_EQ(loop_over(rig, true).label, "measured muscle pressure in bar");
+  EXPECT_EQ(loop_over(rig, false).label, "current in mA");
+  EXPECT_EQ(loop_over(rig, false, "2").key, "current_2");
+  EXPECT_EQ(measured_loops(rig, true).size(), 1u);
+  for (const Plot& plot : plots_of(rig, {}))
+    for (const Line& line : plot.lines) EXPECT_NE(line.key, "reference_pressure");
+  EXPECT_EQ(drawn_rig_json(rig, false)["command"]["shut"], 12.0);
+}
+
+}  // namespace
+}  // namespace mckibben::report
