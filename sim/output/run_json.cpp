@@ -112,7 +112,8 @@ Json robustness_json(const run::Comparison& comparison) {
                     {"limit_cycles", row.limit_cycles},
                     {"saturated", row.saturated},
                     {"over_contracted", row.over_contracted},
-                    {"no_result", row.no_result}});
+                    {"no_result", row.no_result},
+                    {"why_no_result", row.why}});
   return {{"drawn", comparison.drawn}, {"rows", std::move(rows)}};
 }
 

@@ -84,14 +84,18 @@ std::string robustness(const run::Comparison& comparison) {
   Grid grid({"load_kg", "controller", "rmse 5 %", "median", "95 %", "failures", "limit cycle", "saturated",
              "above 0.20", "no result"},
             2);
+  std::string why;
   for (const auto& row : comparison.robustness) {
     const auto count = [](std::size_t number) { return number == 0 ? "-" : std::to_string(number); };
     grid.add({domain::write_kg(row.load_kg), row.controller, row.rmse ? ratio(row.rmse->low) : "-",
               row.rmse ? ratio(row.rmse->median) : "-", row.rmse ? ratio(row.rmse->high) : "-",
               count(row.failures), count(row.limit_cycles), count(row.saturated), count(row.over_contracted),
               count(row.no_result)});
+    if (!row.why.empty())
+      why +=
+          fmt::format("  no result: {} kg, {}: {}\n", domain::write_kg(row.load_kg), row.controller, row.why);
   }
-  return grid.empty() ? "" : grid.text();
+  return grid.empty() ? "" : grid.text() + why;
 }
 
 std::string contraction_notes(const domain::Scenario& scenario, const run::Comparison& comparison) {

@@ -98,6 +98,10 @@ std::string picture(const domain::Scenario& scenario, const run::Comparison& com
 
 Chapter robustness(const domain::Scenario& scenario, const run::Comparison& comparison) {
   if (comparison.robustness.empty()) return {};
+  std::string why;
+  for (const run::RobustRow& row : comparison.robustness)
+    if (!row.why.empty())
+      why += fmt::format("<p>No result: {}: {}</p>\n", escaped(name_of(row)), escaped(row.why));
   return {
       "On rigs that are not quite as described",
       fmt::format("<p>{} rigs were drawn within the ± of {}. Each controller was made for the "
@@ -105,6 +109,7 @@ Chapter robustness(const domain::Scenario& scenario, const run::Comparison& comp
                   "contraction above {:.2f} or no result is a failure.</p>\n",
                   scenario.robustness.rigs, escaped(fmt::format("{}", fmt::join(comparison.drawn, ", "))),
                   100.0 * run::saturated_share, plant::risky_contraction_ratio) +
+          why +
           figures_html(
               {{"Root mean square errors: bars hold 90 % of the rigs, a stroke is their median, a ring "
                 "the rig as described.",

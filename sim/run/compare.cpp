@@ -1,6 +1,5 @@
 // Targets x loads x controllers; see the header.
 #include <atomic>
-#include <cstring>
 #include <span>
 #include <utility>
 #include <variant>
@@ -36,6 +35,19 @@ constexpr auto findings_of = [](auto&& visit, auto& findings) {
     visit(finding.unit);
     visit(finding.value);
   }
+};
+
+constexpr auto members_of_robust_row = [](auto&& visit, auto& of) {
+  visit(of.load_kg);
+  visit(of.controller);
+  visit(of.rigs);
+  visit(of.failures);
+  visit(of.no_result);
+  visit(of.limit_cycles);
+  visit(of.saturated);
+  visit(of.over_contracted);
+  visit(of.rmse);
+  visit(of.why);
 };
 
 constexpr auto members_of_run = [](auto&& visit, auto& of) {
@@ -168,17 +180,16 @@ class Comparing {
       const controllers::Settings& settings = settings_of(i);
       const double load_kg = result_.runs[i].load_kg;
       const auto runs = lacks_gains(result_.runs[i])
-                            ? std::vector<DrawnRun>(static_cast<std::size_t>(scenario_.robustness.rigs))
+                            ? std::vector<DrawnRun>(static_cast<std::size_t>(scenario_.robustness.rigs),
+                                                    {.why = result_.runs[i].failure})
                             : on_drawn_rigs(
                                   scenario_, result_.targets.front(), variation, load_kg,
                                   limits_of(settings, briefing_.knowledge.front(), scenario_.rig),
                                   [&] { return briefing_.make(settings, 0, load_kg); }, threads);
-      return std::string(reinterpret_cast<const char*>(runs.data()), runs.size() * sizeof(DrawnRun));
+      return packed(summed(load_kg, result_.runs[i].controller, runs), members_of_robust_row);
     };
     const auto take = [&](std::size_t i, const std::string& bytes) {
-      std::vector<DrawnRun> runs(bytes.size() / sizeof(DrawnRun));
-      std::memcpy(static_cast<void*>(runs.data()), bytes.data(), bytes.size());
-      result_.robustness[i] = summed(result_.runs[i].load_kg, result_.runs[i].controller, runs);
+      unpack(bytes, result_.robustness[i], members_of_robust_row);
       progress_("drawing rigs", i + 1, result_.runs.size());
     };
     progress_("drawing rigs", 0, result_.runs.size());

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include <plant/geometry.hpp>
 #include <sim/domain/rig_number.hpp>
@@ -56,6 +59,24 @@ domain::Variation within_stated(plant::Rig rig) {
   return variation;
 }
 
+plant::Rig within_rules(const plant::Rig& described, const domain::Variation& variation,
+                        const std::vector<double>& drawn) {
+  plant::Rig rig = with_numbers(described, variation, drawn);
+  if (domain::broken_rule(rig).empty() || !domain::broken_rule(described).empty()) return rig;
+  rig = described;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    double& value = *domain::find_number(rig, variation.numbers[i].path).value;
+    double kept = value, broken = value = drawn[i];
+    if (domain::broken_rule(rig).empty()) continue;
+    for (int halved = 0; halved < std::numeric_limits<double>::digits; ++halved) {
+      value = std::midpoint(kept, broken);
+      (domain::broken_rule(rig).empty() ? kept : broken) = value;
+    }
+    value = kept;
+  }
+  return rig;
+}
+
 std::optional<LimitCycle> limit_cycle(const Followed& run) {
   const auto least = static_cast<std::size_t>(std::ceil(cycle_rest_s / run.tick_s));
   for (std::size_t begin = 0; begin < run.target.size();) {
@@ -81,7 +102,7 @@ namespace {
 
 DrawnRun outcome(const domain::Scenario& scenario, const Wanted& target, const Recording& recording,
                  const std::optional<controllers::CurrentRange>& limits) {
-  if (!recording.failure.empty()) return {};
+  if (!recording.failure.empty()) return {.why = recording.failure};
   const Metrics metrics = metrics_of(scenario, target, recording, limits);
   const double at_limit = metrics.at_lowest_current.value_or(0.0) + metrics.at_highest_current.value_or(0.0);
   std::vector<double> contraction;
@@ -111,10 +132,10 @@ std::vector<DrawnRun> on_drawn_rigs(const domain::Scenario& scenario, const Want
   for (std::size_t k = 0; k < drawn.size(); ++k) {
     RunPlan plan = plan_of(scenario, load_kg, k + 1);
     plan.rig =
-        with_numbers(scenario.rig, variation,
+        within_rules(scenario.rig, variation,
                      draws(variation, scenario.seed, scenario.robustness.rigs, static_cast<int>(k) + 1));
     plan.keep_ledger = false;
-    if (!unfit(plan.rig, load_kg).empty()) continue;
+    if (drawn[k].why = unfit(plan.rig, load_kg); !drawn[k].why.empty()) continue;
     plans.push_back(std::move(plan));
     of.push_back(k);
   }
@@ -132,7 +153,9 @@ std::vector<DrawnRun> on_drawn_rigs(const domain::Scenario& scenario, const Want
 RobustRow summed(double load_kg, const std::string& controller, const std::vector<DrawnRun>& runs) {
   RobustRow row{.load_kg = load_kg, .controller = controller, .rigs = runs.size()};
   std::vector<double> rmse;
-  for (const DrawnRun& run : runs) {
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const DrawnRun& run = runs[k];
+    if (!run.ended && row.why.empty()) row.why = fmt::format("rig {}: {}", k + 1, run.why);
     row.failures += run.failed() ? 1 : 0;
     row.no_result += run.ended ? 0 : 1;
     row.limit_cycles += run.cycles ? 1 : 0;

@@ -28,6 +28,7 @@ inline constexpr double saturated_share = 0.10;
 /// Of one drawn rig.
 struct DrawnRun {
   bool ended = false;  ///< false: the controller or the integrator gave up, or the rig cannot be
+  std::string why{};   ///< it did not
   double rmse = 0.0;
   bool cycles = false, saturated = false, over_contracted = false;
   bool failed() const { return !ended || cycles || saturated || over_contracted; }
@@ -45,11 +46,17 @@ struct RobustRow {
   std::size_t rigs = 0, failures = 0;  ///< failures: rigs with at least one of these
   std::size_t no_result = 0, limit_cycles = 0, saturated = 0, over_contracted = 0;
   std::optional<Band> rmse{};
+  std::string why{};  ///< the first of those without a result has none; empty if all have one
 };
 
 /// What is drawn of a rig, by the deviations that its file states; cut at the documented range. Numbers that
 /// are not known at all are none of them.
 domain::Variation within_stated(plant::Rig rig);
+
+/// The rig with what was drawn, as far as the rules between its numbers allow: where the draws break one,
+/// each in turn goes only so far from the described rig that none is broken.
+plant::Rig within_rules(const plant::Rig& described, const domain::Variation& variation,
+                        const std::vector<double>& drawn);
 
 /// How a load goes round and round where its target rests; none if it comes to rest.
 struct LimitCycle {

@@ -82,6 +82,8 @@ TEST(Robustness, BandsAreOfThoseThatEndedAndFailuresAreCountedOnce) {
   EXPECT_NEAR(row.rmse->median, 10e-3, 1e-15);
   EXPECT_NEAR(row.rmse->high, 19e-3, 1e-15);
   EXPECT_FALSE(summed(16.0, "pid", {DrawnRun{}}).rmse.has_value());
+  EXPECT_EQ(summed(16.0, "pid", {{.ended = true}, {.why = "one"}, {.why = "other"}}).why, "rig 2: one");
+  EXPECT_EQ(summed(16.0, "pid", {{.ended = true}}).why, "");
 }
 
 TEST(Robustness, DrawsWhatIsStatedWithinItsDocumentedRange) {
@@ -94,6 +96,19 @@ TEST(Robustness, DrawsWhatIsStatedWithinItsDocumentedRange) {
   EXPECT_EQ(variation.numbers[1].path, "muscle.rest_radius");
   EXPECT_EQ(variation.numbers[1].middle, rig.muscle.rest_radius_m);
   EXPECT_EQ(variation.numbers[1].deviation, 1e-4);
+}
+
+TEST(Robustness, DrawsKeepTheRulesBetweenTheNumbersOfARig) {
+  plant::Rig rig;
+  rig.valve.zero_pressure_Pa = rig.valve.exhaust_pressure_Pa = 0.0;
+  rig.spreads = {{"muscle.rest_radius", 1e-4}, {"valve.zero_pressure", 3e3}};
+  const domain::Variation variation = within_stated(rig);
+  const plant::Rig below = within_rules(rig, variation, {7.4e-3, -2e3}),
+                   above = within_rules(rig, variation, {7.4e-3, 2e3});
+  EXPECT_EQ(domain::broken_rule(below), "");
+  EXPECT_EQ(below.valve.zero_pressure_Pa, 0.0);
+  EXPECT_EQ(below.muscle.rest_radius_m, 7.4e-3);
+  EXPECT_EQ(above.valve.zero_pressure_Pa, 2e3);
 }
 
 /// Two controllers without feedback, one of which asks for too much, on rigs whose radius is known to 2 %.
@@ -117,6 +132,14 @@ domain::Scenario scenario() {
 
 Comparison compared(const domain::Scenario& all, unsigned threads) {
   return compare(all, threads, [](const std::string&, std::size_t, std::size_t) {});
+}
+
+TEST(Robustness, ARigThatEndsAtARuleOfItsFileHasAResult) {
+  auto all = scenario();
+  all.rig.valve.zero_pressure_Pa = all.rig.valve.exhaust_pressure_Pa;
+  all.rig.spreads = {{"valve.zero_pressure", 3e3}};
+  const RobustRow row = compared(all, 2).robustness[0];
+  EXPECT_EQ(row.no_result, 0u) << row.why;
 }
 
 TEST(Robustness, RidesEveryControllerOnTheSameDrawnRigsWhateverTheThreads) {
