@@ -105,6 +105,9 @@ TEST(Suggest, OnlyWhatIsNear) {
   EXPECT_EQ(did_you_mean("radiu", known), "");
   EXPECT_EQ(did_you_mean("inner_radius", known), "; did you mean rest_radius?") << "by its last part";
   EXPECT_EQ(did_you_mean("rest_radus", known), "; did you mean rest_radius?");
+  constexpr std::string_view kinds[] = {"encoder", "linear_encoder", "potentiometer"};
+  for (const char* const word : {"draw-wire encoder", "string encoder", "draw_wire"})
+    EXPECT_EQ(did_you_mean(word, kinds), "; did you mean linear_encoder?");
   EXPECT_TRUE(did_you_mean("laser", known).starts_with("; that is `sensors` of the rig: `[{signal: "))
       << "a word of the field that stands elsewhere";
 }
