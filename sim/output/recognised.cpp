@@ -155,9 +155,17 @@ std::string table_of(const Recognised& found, const std::string& where) {
     for (const Setting& each : *settings)
       text += fmt::format("  {}: {}\n      {}\n", each.key, each.told.value, each.told.reason);
   const std::size_t open = found.open();
-  text += open > 0 ? fmt::format("\n{} value{} to be filled in (FILL_IN) in {}; then: mckibben check {}\n",
-                                 open, open == 1 ? " is" : "s are", where, where)
-                   : fmt::format("\nAll values are known; next: mckibben check {}\n", where);
+  std::string zeros;
+  for (const MapGuess& map : found.maps)
+    for (const ColumnGuess& guess : map.columns)
+      if (guess.zero && guess.zero->doubtful) zeros += (zeros.empty() ? " " : ", ") + guess.column.value;
+  text += open > 0
+              ? fmt::format("\n{} value{} to be filled in (FILL_IN) in {}; then: mckibben check {}\n", open,
+                            open == 1 ? " is" : "s are", where, where)
+              : fmt::format("\n{}; next: mckibben check {}\n",
+                            zeros.empty() ? "All values are known"
+                                          : "No value is missing, but a load may hang at the zero of" + zeros,
+                            where);
   return text;
 }
 

@@ -1,6 +1,7 @@
 // Sign and zero of a contraction; see columns.hpp.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double least_correlation = 0.5, least_zero_share = 0.01, digits_of_range = 1e-4;
 constexpr double settled_share = 0.05, near_rest_share = 0.3;  ///< of the range of its readings
+constexpr double zeros_apart = 2e-3;  ///< the same: two medians that differ by more are not one
 
 /// The number that a muscle's length, or its ratio to that at rest, has at rest; none if nobody knows.
 std::optional<double> length_at_rest(const std::string& unit, bool is_length, const KnownRig& rig) {
@@ -34,10 +36,23 @@ double scatter_alone(const Readings& drives, const Readings& readings) {
   return widest;
 }
 
+/// By how much the readings of single tables differ where the drive is lowest; 0 if by no more than a step.
+double apart(const Readings& drives, const Readings& readings) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, step = 0.0;
+  for (std::size_t i = 0; i < drives.values.size(); ++i) {
+    const double zero = together({drives.values[i]}, {readings.values[i]}).at_least_drive;
+    low = std::min(low, zero);
+    high = std::max(high, zero);
+    step = std::max(step, data::step_of(*readings.values[i]));
+  }
+  const Range& range = readings.range;
+  return high - low > std::max(step, zeros_apart * (range.high - range.low)) ? high - low : 0.0;
+}
+
 /// Zero of a contraction that moves along with what drives the muscle; none: 0.
 std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess& drive, const Together& found,
-                              double alone, const Range& range, double lowest_drive, bool is_length,
-                              bool empties, const KnownRig& rig) {
+                              double alone, double apart, const Range& range, double lowest_drive,
+                              bool is_length, bool empties, const KnownRig& rig) {
   const std::string& unit = contraction.unit.value;
   const double span = range.high - range.low;
   const bool falls = found.correlation < 0.0, ratio = unit == "1" || unit == "%";
@@ -65,11 +80,20 @@ std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess&
         found.scatter, unit, rounded(at_rest)));
   const std::string reason =
       fmt::format("its median where {} is lowest, {:.4g}", drive.column.value, lowest_drive);
-  if (empties)
-    return Told{rounded(found.at_least_drive), reason + ": no pressure is left in the muscle there"};
+  if (empties) {
+    std::string load = "; if a load hangs there, it is the zero under it";
+    if (apart > 0.0)
+      load = fmt::format(
+          "; it differs by {:.3g} {} between the tables, as loads stretch the muscle: joint: "
+          "{{reading_offset: 0 mm ± 1 mm}} of the rig lets diagnose move it",
+          apart, unit);
+    return Told{rounded(found.at_least_drive),
+                reason + ": no pressure is left in the muscle there" + (rig.holds_a_length ? "" : load),
+                !rig.holds_a_length && apart > 0.0};
+  }
   return left_open(
       fmt::format("what it reads at the muscle's rest length; {} is {}: it is that if no pressure is left "
-                  "in the muscle there",
+                  "in the muscle there and no load stretches it",
                   rounded(found.at_least_drive), reason));
 }
 
@@ -117,9 +141,9 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
     contraction.factor = Told{"-1", "it falls as the muscle contracts, " + along};
   const double at_rest = falls ? range.high : range.low;
   if (!scale_is_open)
-    contraction.zero =
-        zero_told(contraction, drive, found, scatter_alone(*drives, *readings), range, drives->range.low,
-                  heading.is_length, gauge != nullptr && reads_nothing(*gauge, tables), rig);
+    contraction.zero = zero_told(contraction, drive, found, scatter_alone(*drives, *readings),
+                                 apart(*drives, *readings), range, drives->range.low, heading.is_length,
+                                 gauge != nullptr && reads_nothing(*gauge, tables), rig);
   else if (std::abs(at_rest) > near_rest_share * (range.high - range.low))
     contraction.zero = left_open(fmt::format(
         "what it reads with the muscle at its rest length, before factor is multiplied; its readings "

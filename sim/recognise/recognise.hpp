@@ -18,6 +18,7 @@ namespace mckibben::recognise {
 /// A value as a file says it, and what told it.
 struct Told {
   std::string value, reason;
+  bool doubtful = false;  ///< a zero that loads seem to have moved
   bool open() const { return value == domain::fill_in; }
 };
 inline Told left_open(std::string reason) {

@@ -139,12 +139,12 @@ TEST_F(Asked, TheZeroOfWhatStillMovesWhereItsDriveIsLowest) {
 }
 
 TEST_F(Asked, TheZeroOfWhatOtherLoadsStretch) {
-  const auto zero = [&](double stretched_mm, double moves_mm) {
+  const auto zero = [&](double stretched_mm, double moves_mm, const char* gauge = "comment") {
     std::vector<std::filesystem::path> files;
     for (int load = 0; load < 2; ++load) {
-      std::string text = "t [ms];u [V];Weg [mm]\n";
+      std::string text = fmt::format("t [ms];u [V];{};Weg [mm]\n", gauge);
       for (int k = 0; k < 200; ++k)
-        text += fmt::format("{};{:.3f};{:.3f}\n", 12 * k, 10 * drive(k),
+        text += fmt::format("{};{:.3f};{:.3f};{:.3f}\n", 12 * k, 10 * drive(k), 6 * drive(k),
                             80 - 40 * drive(k) + stretched_mm * load + (k < 5 ? moves_mm * k : 0));
       files.push_back(folder_.write(fmt::format("{}kg.csv", 5 + 5 * load), text));
     }
@@ -153,6 +153,10 @@ TEST_F(Asked, TheZeroOfWhatOtherLoadsStretch) {
   EXPECT_TRUE(lacks(zero(0.0, 0.0).reason, "differs"));
   EXPECT_TRUE(holds(zero(8.0, 0.0).reason, "differs between the tables, as loads do, by 8"));
   EXPECT_TRUE(holds(zero(0.0, 2.0).reason, "it still moves by"));
+  EXPECT_FALSE(zero(0.0, 0.0, "p [bar]").doubtful);
+  EXPECT_TRUE(holds(zero(0.0, 0.0, "p [bar]").reason, "if a load hangs there, it is the zero under it"));
+  EXPECT_TRUE(zero(0.3, 0.0, "p [bar]").doubtful);
+  EXPECT_TRUE(holds(zero(0.3, 0.0, "p [bar]").reason, "differs by 0.3 mm", "reading_offset: 0 mm ± 1 mm"));
 }
 
 TEST_F(Asked, AFactorInAHeadingAndTwoUnits) {
