@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -115,6 +116,9 @@ class Columns {
       for (const Beside which : domain::besides)
         if (which != Beside::force) gauge(i, which);
     }
+    for (const auto& [line, gauge] : gauges_)
+      if (auto found = other_gain(gauge.second, gauge.first.key, gauge.first.place))
+        findings_.push_back(std::move(*found));
     map_ =
         with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
     Compared all, beside;
@@ -319,17 +323,20 @@ class Columns {
     const auto an_atmosphere = [&](double difference_Pa) {
       return std::abs(std::abs(difference_Pa) / atmosphere_Pa - 1.0) < of_columns.atmosphere;
     };
-    const bool everywhere =
-        an_atmosphere(line.mean_difference) && an_atmosphere(lowest(rows.measured) - lowest(rows.model)) &&
-        line.slope > of_columns.least_gauge_slope && line.slope < of_columns.most_gauge_slope;
+    const bool everywhere = an_atmosphere(line.mean_difference) &&
+                            an_atmosphere(lowest(rows.measured) - lowest(rows.model)) &&
+                            is_gauge_slope(line.slope);
     if (everywhere || an_atmosphere(rest_Pa)) {
       absolute(quantity, i, everywhere ? line.mean_difference : rest_Pa, everywhere);
       return;
     }
-    if (range(rows.model) > quantity.moves &&
-        (line.slope < of_columns.least_gauge_slope || line.slope > of_columns.most_gauge_slope))
-      if (auto found = other_gain(rows, quantity.key, quantity.place, quantity.units))
-        findings_.push_back(std::move(*found));
+    if (range(rows.model) <= quantity.moves) return;
+    if (!is_gauge_slope(line.slope))
+      if (auto found = other_unit_of_gauge(rows, quantity.key, quantity.place, quantity.units))
+        return findings_.push_back(std::move(*found));
+    auto& [one, runs] = gauges_[line_of(quantity.key, quantity.place)];
+    one = quantity;
+    runs.push_back(std::move(rows));
   }
 
   /// What a gauge reads more, in the middle, where the model's pressure is as low as it comes; 0 where it
@@ -364,6 +371,7 @@ class Columns {
   const std::vector<Expected>& expected_;
   std::vector<Finding>& findings_;
   domain::ColumnMap map_;  ///< with our names where it says none
+  std::map<std::string, std::pair<Quantity, std::vector<Compared>>> gauges_;  ///< by their lines of columns
 };
 
 }  // namespace

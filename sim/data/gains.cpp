@@ -187,9 +187,11 @@ std::optional<Finding> reversed_flow(const domain::Dataset& data) {
                              line)};
 }
 
-std::optional<FittingUnit> unit_that_fits(const Compared& reading, std::string_view said,
+std::optional<FittingUnit> unit_that_fits(const Compared& reading, const ColumnPlace& said,
                                           const std::vector<Unit>& units) {
-  const Unit* const own = find_unit(units, said);
+  const Unit* const own = find_unit(units, said.unit);
+  const double most =
+      names_unit(said.column, said.unit) ? of_gains.beside_stated_unit : of_gains.fitting_unit;
   if (own == nullptr || reading.measured.empty() || range(reading.measured) == 0.0) return std::nullopt;
   std::optional<FittingUnit> best;
   for (const Unit& unit : units) {
@@ -201,24 +203,45 @@ std::optional<FittingUnit> unit_that_fits(const Compared& reading, std::string_v
       squares += std::pow(factor * reading.measured[k] - reading.model[k], 2);
     const double left =
         std::sqrt(squares / static_cast<double>(reading.model.size())) / (factor * range(reading.measured));
-    if (left < (best ? best->left : of_gains.fitting_unit)) best = {unit.name, left};
+    if (left < (best ? best->left : most)) best = {unit.name, left};
   }
-  return best && best->name != said ? best : std::nullopt;
+  return best && best->name != said.unit ? best : std::nullopt;
 }
 
-std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, ColumnPlace place,
-                                  const std::vector<Unit>& units) {
+std::optional<Finding> other_unit_of_gauge(const Compared& gauge, const std::string& key, ColumnPlace place,
+                                           const std::vector<Unit>& units) {
   const Line line(gauge.measured, gauge.model);
   if (line.correlation < of_gains.alike || line.slope <= 0.0) return std::nullopt;
-  if (const auto unit = unit_that_fits(gauge, place.unit, units)) {
-    place.unit = unit->name;
-    return Finding{
-        .quantity = key,
-        .runs = gauge.runs,
-        .message = fmt::format("{} is {:.3g} times what the rig would do: is it in {}? Then columns: {{{}}}",
-                               key, line.slope, unit->name, line_in_unit(key, place)),
-        .severity = Severity::doubtful};
+  const auto unit = unit_that_fits(gauge, place, units);
+  if (!unit) return std::nullopt;
+  place.unit = unit->name;
+  return Finding{
+      .quantity = key,
+      .runs = gauge.runs,
+      .message = fmt::format("{} is {:.3g} times what the rig would do: is it in {}? Then columns: {{{}}}",
+                             key, line.slope, unit->name, line_in_unit(key, place)),
+      .severity = Severity::doubtful};
+}
+
+bool is_gauge_slope(double slope) {
+  return slope >= of_gains.least_gauge_slope && slope <= of_gains.most_gauge_slope;
+}
+
+std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::string& key,
+                                  ColumnPlace place) {
+  Compared gauge;
+  std::vector<double> slopes;
+  for (const Compared& run : runs) {
+    slopes.push_back(Line(run.measured, run.model).slope);
+    gauge.runs.insert(gauge.runs.end(), run.runs.begin(), run.runs.end());
+    gauge.measured.insert(gauge.measured.end(), run.measured.begin(), run.measured.end());
+    gauge.model.insert(gauge.model.end(), run.model.begin(), run.model.end());
   }
+  const auto [least, most] = std::ranges::minmax(slopes);
+  if (std::ranges::any_of(slopes, is_gauge_slope) || least <= 0.0 || most > of_gains.one_gauge * least)
+    return std::nullopt;
+  const Line line(gauge.measured, gauge.model);
+  if (line.correlation < of_gains.alike) return std::nullopt;
   const double power = std::pow(10.0, std::round(std::log10(line.slope)));
   const bool is_power = std::abs(std::log(line.slope / power)) < std::log(of_gains.same);
   place.factor = domain::significant(place.factor / (is_power ? power : line.slope), digits);

@@ -49,10 +49,15 @@ std::optional<Finding> beyond_the_rig(const domain::Dataset& data, const std::ve
 /// shut set a flow, so that no scale of the contraction shows it.
 std::optional<Finding> reversed_flow(const domain::Dataset& data);
 
-/// A gauge that goes along with the model and shows many times, or a part of, what it would do.
-/// `units`: those that it may be in.
-std::optional<Finding> other_gain(const Compared& gauge, const std::string& key, domain::ColumnPlace place,
-                                  const std::vector<Unit>& units);
+/// A gauge that goes along with the model and shows many times, or a part of, what it would do: in another
+/// of the `units` that it may be in,
+std::optional<Finding> other_unit_of_gauge(const Compared& gauge, const std::string& key,
+                                           domain::ColumnPlace place, const std::vector<Unit>& units);
+/// or by a factor: that of a gauge is one for all runs that it reads, or none.
+std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::string& key,
+                                  domain::ColumnPlace place);
+/// Whether a gauge may read so many times what the rig would do.
+bool is_gauge_slope(double slope);
 
 /// Another unit in which readings move as far as the model and little is left between them: its root, of the
 /// readings' range.
@@ -60,7 +65,7 @@ struct FittingUnit {
   std::string name;
   double left;
 };
-std::optional<FittingUnit> unit_that_fits(const Compared& reading, std::string_view said,
+std::optional<FittingUnit> unit_that_fits(const Compared& reading, const domain::ColumnPlace& said,
                                           const std::vector<Unit>& units);
 
 }  // namespace mckibben::data

@@ -40,6 +40,8 @@ struct ColumnThresholds {
   double least_gauge_slope = 0.5, most_gauge_slope = 2.0;  ///< of a gauge in the right unit
   double halved = 1.12, halved_share = 0.005;  ///< of a factor 2; left of the sum of squares with it
   double fitting_unit = 0.3;  ///< of a reading's range: what is left, its root, in the unit that is meant
+  double beside_stated_unit = 0.1;  ///< the same, where the heading says the unit that is read
+  double one_gauge = 1.1;           ///< factors as near as that are one of the gauge: a leak's differ by run
   double other_zero = 0.3;    ///< of the model's range: an offset of a contraction, if little else is left
   double off_at_rest = 0.04;  ///< contraction ratio: no bladder or thread gives so much without pressure
   double hardly_pulls = 0.5;  ///< of the load: a muscle twice as strong would not lift it

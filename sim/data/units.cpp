@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <cctype>
 
 #include <plant/constants.hpp>
 #include <plant/instruments.hpp>
@@ -24,6 +25,16 @@ std::vector<Unit> units_of_pressure() {
   std::vector<Unit> units;
   for (const auto& [name, size] : pressure_units) units.push_back({std::string(name), size});
   return units;
+}
+
+bool names_unit(std::string_view heading, std::string_view unit) {
+  const auto is_letter = [&](std::size_t at) {
+    return at < heading.size() && std::isalnum(static_cast<unsigned char>(heading[at])) != 0;
+  };
+  for (std::size_t at = heading.find(unit); at != std::string_view::npos && !unit.empty();
+       at = heading.find(unit, at + 1))
+    if (!is_letter(at - 1) && !is_letter(at + unit.size())) return true;
+  return false;
 }
 
 const Unit* find_unit(const std::vector<Unit>& units, std::string_view name) {

@@ -27,6 +27,9 @@ inline constexpr std::array<std::pair<std::string_view, double>, 6> pressure_uni
     {{"MPa", 1e6}, {"bar", 1e5}, {"psi", 6894.757}, {"kPa", 1e3}, {"mbar", 1e2}, {"Pa", 1.0}}};
 std::vector<Unit> units_of_pressure();
 
+/// Whether a heading says a unit, as a word of its own: `Linear pos (mm)`.
+bool names_unit(std::string_view heading, std::string_view unit);
+
 /// Null if it is none of them.
 const Unit* find_unit(const std::vector<Unit>& units, std::string_view name);
 

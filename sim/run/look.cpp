@@ -152,7 +152,7 @@ std::string in_another_unit(const data::Compared& rows, const std::string& readi
   const auto units = reading == "contraction"                        ? data::units_of_contraction(rig)
                      : reading.find("pressure") != std::string::npos ? data::units_of_pressure()
                                                                      : std::vector<data::Unit>{};
-  const auto fits = data::unit_that_fits(rows, place.unit, units);
+  const auto fits = data::unit_that_fits(rows, place, units);
   if (!fits) return "";
   place.unit = fits->name;
   return fmt::format("; in {} it would be {:.0f} %: columns: {{{}}}", fits->name, 100.0 * fits->left,

@@ -1,0 +1,45 @@
+// What is said of a gauge that reads many times, or a part of, what the rig would do.
+#include <gtest/gtest.h>
+
+#include <sim/data/gains.hpp>
+#include <sim/data/units.hpp>
+
+#include "measured_on.hpp"
+#include "says.hpp"
+
+namespace mckibben::run {
+namespace {
+
+TEST(Gauge, AFactorIsToldOnlyIfAllRunsAgreeOnIt) {
+  const auto told = [](double first, double others) {
+    auto data = sound();
+    data.columns["muscle_pressure"] = {"p_bar", "bar"};
+    for (domain::Run& run : data.runs)
+      for (double& pressure_Pa : *run.muscle_pressure_Pa)
+        pressure_Pa *= &run == &data.runs.front() ? first : others;
+    std::string all;
+    for (const std::string& one : said(data)) all += one + "\n";
+    return all;
+  };
+  EXPECT_TRUE(holds(told(0.4, 0.4), "all runs: muscle_pressure is 0.", "is a factor of its gauge"));
+  EXPECT_TRUE(lacks(told(0.4, 1.0), "is a factor of its gauge"));
+  EXPECT_TRUE(lacks(told(0.25, 0.4), "is a factor of its gauge")) << "a leak may do so";
+}
+
+TEST(Gauge, AUnitThatTheHeadingSaysIsDoubtedOnlyWhereAnotherFits) {
+  const std::vector<data::Unit> units{{"mm", 1.0}, {"%", 2.5}};
+  data::Compared rows;
+  for (int k = 0; k < 100; ++k) {
+    rows.measured.push_back(1.0 * k);
+    rows.model.push_back(2.5 * k + (k % 2 == 0 ? 50.0 : -50.0));
+  }
+  EXPECT_EQ(data::unit_that_fits(rows, {"x", "mm"}, units).value_or(data::FittingUnit{}).name, "%");
+  EXPECT_FALSE(data::unit_that_fits(rows, {"Pos (mm)", "mm"}, units));
+  for (int k = 0; k < 100; ++k) rows.model[static_cast<std::size_t>(k)] = 2.5 * k;
+  EXPECT_TRUE(data::unit_that_fits(rows, {"Pos (mm)", "mm"}, units));
+  EXPECT_TRUE(data::names_unit("Linear pos (mm)", "mm"));
+  EXPECT_FALSE(data::names_unit("comment", "mm"));
+}
+
+}  // namespace
+}  // namespace mckibben::run
