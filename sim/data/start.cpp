@@ -71,7 +71,7 @@ std::optional<Finding> begins_moving(const domain::Dataset& data, const std::vec
   return Finding{
       .runs = std::move(runs),
       .message = fmt::format("begins on its way, {} at {}/s: start: settled says at rest. Where rows "
-                             "before were cut off, write start: moving",
+                             "before were cut off, write start: moving at the top of dataset.yaml",
                              id, amount_of(judged, fastest, data.rig)),
       .severity = Severity::doubtful};
 }

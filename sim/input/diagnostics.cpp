@@ -57,6 +57,16 @@ void Problems::error(const Source& source, Place place, std::string message, boo
   add(Severity::error, source, place, std::move(message), of_column);
 }
 
+void Problems::unknown_key(const Source& source, Place place, const std::string& key, std::string message) {
+  add(Severity::error, source, place, std::move(message), false, key);
+}
+
+void Problems::known_at_top(const Source& source, std::span<const std::string_view> keys) {
+  for (Problem& problem : list_)
+    if (problem.file == source.name() && std::ranges::find(keys, problem.unknown) != keys.end())
+      problem.message += fmt::format("; {} goes at the top of the file, not here", problem.unknown);
+}
+
 void Problems::missing_file(const Source& source, Place place, std::string message) {
   add(Severity::missing_file, source, place, std::move(message));
 }
@@ -96,13 +106,13 @@ void Problems::adopt(const std::vector<Problem>& found) {
   for (const Problem& problem : found) add(problem);
 }
 
-void Problems::add(Severity severity, const Source& source, Place place, std::string message,
-                   bool of_column) {
+void Problems::add(Severity severity, const Source& source, Place place, std::string message, bool of_column,
+                   std::string unknown) {
   std::string_view line = source.line(place.line);
   if (line.size() > longest_line_shown || printable(line) != line) line = {};
   place.line = source.line_in_file(place.line);
   message = printable(shortened(message, longest_message));
-  add({severity, source.name(), place, std::move(message), std::string(line), of_column});
+  add({severity, source.name(), place, std::move(message), std::string(line), of_column, std::move(unknown)});
 }
 
 void Problems::add(Problem problem) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -30,6 +31,7 @@ struct Problem {
   std::string message;
   std::string source_line;  ///< empty if too long to show
   bool of_column = false;   ///< of a column as a whole, so that other files of its kind have it as well
+  std::string unknown{};    ///< a key that is not known here
 };
 
 /// `FILE:LINE:COL`, or `FILE` where there is no place.
@@ -61,6 +63,9 @@ class Problems {
   const std::vector<InputFile>& inputs() const { return inputs_; }
 
   void error(const Source& source, Place place, std::string message, bool of_column = false);
+  void unknown_key(const Source& source, Place place, const std::string& key, std::string message);
+  /// Of keys that were unknown elsewhere in `source` it is said that they go at its top.
+  void known_at_top(const Source& source, std::span<const std::string_view> keys);
   /// A file named in `source` that is not there.
   void missing_file(const Source& source, Place place, std::string message);
   void warning(const Source& source, Place place, std::string message);
@@ -79,7 +84,8 @@ class Problems {
   void raise() const;
 
  private:
-  void add(Severity severity, const Source& source, Place place, std::string message, bool of_column = false);
+  void add(Severity severity, const Source& source, Place place, std::string message, bool of_column = false,
+           std::string unknown = {});
   void add(Problem problem);
 
   std::vector<Problem> list_;

@@ -86,12 +86,14 @@ void ValueReader::check_unknown(std::span<const std::string_view> also_allowed) 
       continue;
     // `0,05` in a map in one line: YAML takes the rest of the number for a key.
     const bool cut_number = child.kind == Node::Kind::null && child.key.find_first_of("0123456789") == 0;
-    problems_.error(source_, child.key_place,
-                    fmt::format("unknown key {}{} (allowed: {})", shortened(child.key),
-                                cut_number ? "; decimals are written with a point, as in 0.05"
-                                           : did_you_mean(child.key, allowed),
-                                join(allowed)));
+    problems_.unknown_key(source_, child.key_place, child.key,
+                          fmt::format("unknown key {}{} (allowed: {})", shortened(child.key),
+                                      cut_number ? "; decimals are written with a point, as in 0.05"
+                                                 : did_you_mean(child.key, allowed),
+                                      join(allowed)));
   }
+  if (!map_.children.empty() && map_.children.front().key_place.column == 1)
+    problems_.known_at_top(source_, known_);
 }
 
 void ValueReader::check_there(std::string_view by) {

@@ -119,7 +119,8 @@ void add_not_at_rest(const domain::Dataset& data, const std::vector<ReplayedRun>
   }
   if (runs.empty()) return;
   findings.push_back({.runs = std::move(runs),
-                      .message = still_moves(fastest, data.rig) + (may_move ? ", or start: moving" : ""),
+                      .message = still_moves(fastest, data.rig) +
+                                 (may_move ? ", or start: moving at the top of dataset.yaml" : ""),
                       .severity = data::Severity::doubtful});
 }
 

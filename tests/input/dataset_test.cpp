@@ -180,6 +180,22 @@ TEST_F(DatasetFolder, MissingFilesAreMissingInput) {
   EXPECT_THROW(read_dataset(folder_ / "other.yaml"), MissingInput);
 }
 
+TEST_F(DatasetFolder, AKeyOfTheWholeDataSetIsSentToTheTop) {
+  write("dataset.yaml",
+        "schema: mckibben-dataset/1\nruns:\n"
+        "  - {id: r01, file: one.csv, load: 1 kg, start: moving, kilo: 1}\n");
+  write("one.csv", "time_s,current_mA,contraction_ratio\n0,4,0\n");
+  try {
+    read_dataset(folder_);
+    FAIL();
+  } catch (const BadInput& error) {
+    const std::string said = error.what();
+    EXPECT_TRUE(said.find("unknown key start (allowed: id, ") != std::string::npos) << said;
+    EXPECT_TRUE(said.find("; start goes at the top of the file, not here") != std::string::npos) << said;
+    EXPECT_TRUE(said.find("kilo goes") == std::string::npos) << said;
+  }
+}
+
 TEST_F(DatasetFolder, ProblemsOfAllTablesAtOnce) {
   write("dataset.yaml",
         "schema: mckibben-dataset/1\nruns:\n"

@@ -145,7 +145,8 @@ TEST(Sanity, ARunThatBeginsOnItsWayIsToldWithItsSpeed) {
   for (std::ptrdiff_t k = 0; k < 200; ++k) rows = rise(k) > rise(rows) ? k : rows;
   for (auto* column : {&run.contraction_ratio, &run.current_mA, &*run.muscle_pressure_Pa})
     column->erase(column->begin(), column->begin() + rows);
-  EXPECT_TRUE(holds(says(data), "run r03: begins on its way, r03 at ", " mm/s: ", "write start: moving"));
+  EXPECT_TRUE(holds(says(data), "run r03: begins on its way, r03 at ",
+                    " mm/s: ", "write start: moving at the top of dataset.yaml"));
 }
 
 TEST(Sanity, ACommandThatWasRoundedIsTold) {
