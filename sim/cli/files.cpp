@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -153,8 +155,10 @@ struct CheckOptions : Options {
 };
 
 int check_files(const CheckOptions& options) {
+  namespace fs = std::filesystem;
   int status = done;
   Json findings = Json::array();
+  std::set<std::tuple<fs::path, std::string, std::string>> said_of_rigs;  // folder, line, message
   for (const auto& path : options.files) {
     std::vector<Problem> found;
     int file_status = done;
@@ -179,6 +183,10 @@ int check_files(const CheckOptions& options) {
     Json entry{{"file", path}, {"ok", file_status == done}, {"problems", Json::array()}};
     for (const auto& problem : found) {
       entry["problems"].push_back(problem_json(problem));
+      const bool of_rig = problem.message.starts_with(input::rig_is_unknown);
+      if (of_rig &&
+          !said_of_rigs.insert({fs::path(path).parent_path(), problem.source_line, problem.message}).second)
+        continue;
       fmt::print(stderr, "{}\n", to_text(problem));
     }
     if (!missing.empty()) {

@@ -77,9 +77,8 @@ class ScenarioChecker {
     check_dac(scenario_.rig, source_, place, problems_);
     check_gauge_error(file_, scenario_.rig, problems_);
     if (const std::string keys = unknown_keys(scenario_.rig); !keys.empty())
-      problems_.warning(
-          source_, place,
-          fmt::format("these values of the rig are ± unknown, so results are one guess of many: {}", keys));
+      problems_.warning(source_, place,
+                        fmt::format("{}, so results are one guess of many: {}", rig_is_unknown, keys));
     if (pair() != nullptr) check_dac(opposite(), source_, place, problems_);
   }
 

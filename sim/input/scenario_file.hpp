@@ -16,6 +16,8 @@ namespace mckibben::input {
 
 using domain::Criterion, domain::Scenario;
 
+/// How the warning begins that numbers of a rig are ± unknown: all scenarios on the rig have it.
+inline constexpr std::string_view rig_is_unknown = "these values of the rig are ± unknown";
 inline constexpr std::string_view scenario_schema = "mckibben-scenario/1", pair_schema = "mckibben-pair/1";
 
 /// Reads a scenario and the rig files and recorded currents that it names; `warnings` are added to.

@@ -199,6 +199,15 @@ TEST_F(Program, AFailedRunLeavesEarlierResultsAlone) {
   EXPECT_EQ(read_text(scratch / "r/run.json"), before);
 }
 
+TEST_F(Program, CheckSaysOnceThatARigIsUnknown) {
+  const std::string rig = "rig: {base: thesis, friction: {scale: 1 ± unknown}}\n";
+  std::string text = read_text(scratch / "quick.yaml");
+  for (const char* name : {"one.yaml", "two.yaml"}) write_text(scratch / name, text + rig);
+  const std::string said = run("check one.yaml two.yaml").err, what = "± unknown, so results are one guess";
+  EXPECT_NE(said.find(what), std::string::npos) << said;
+  EXPECT_EQ(said.find(what), said.rfind(what)) << said;
+}
+
 TEST_F(Program, CheckTellsTheKindsApart) {
   write_text(scratch / "rig.yaml", "schema: mckibben-rig/1\nmuscle: {rest_length: 250 mm}\n");
   write_text(scratch / "odd.yaml", "schema: mckibben-kitchen/1\n");
