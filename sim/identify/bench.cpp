@@ -147,7 +147,8 @@ class FaultReport {
     return factor.spread(values) < offset.spread(values) ? factor : offset;
   }
 
-  /// What runs have in common, where it is determined, and what is off in single runs besides.
+  /// What runs have in common, where that is determined and more than any has by itself; and what is off in
+  /// single runs.
   void differing_runs(std::size_t place) {
     const int which = model_.point.differ[place];
     const EachRun of = each_run(model_, place);
@@ -161,7 +162,7 @@ class FaultReport {
       for (std::size_t i = 0; i < own.size(); ++i)
         deviations[i] = of.deviation(common.own(static_cast<Eigen::Index>(i)));
       if (std::abs(common.value) > stands_out * of.deviation(common.weights) &&
-          common.sizes.maxCoeff() * std::abs(common.value) > matters * largest(own))
+          common.sizes.maxCoeff() * std::abs(common.value) > largest(own))
         shared = common;
       else
         totals = own;

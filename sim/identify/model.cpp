@@ -153,8 +153,7 @@ Model::Here Model::here() const {
            0.5 * (at.log_det() + gram(0, 0)) - low.matrixLLT().diagonal().array().log().sum() +
            (stepped ? quadratic(at).promised() : 0.0);
   };
-  const Error as_it_stands =
-      begun.fitted_anew(left, Eigen::MatrixXd(left.size(), 0), Eigen::VectorXd());
+  const Error as_it_stands = begun.fitted_anew(left, Eigen::MatrixXd(left.size(), 0), Eigen::VectorXd());
   const Error after_a_step = begun.fitted_anew(left, slopes, of_prior);
   const double stands = laplace(as_it_stands, false);
   return {stands, std::max(stands, laplace(after_a_step, true)), after_a_step.explains()};
