@@ -118,7 +118,9 @@ function dialOf(one, which, label) {
 const inWords = (name) => name.replaceAll('_', ' ');
 
 /** Beside the list of guesses. */
-const answer = (text) => { byId('answer').textContent = text; };
+const answer = (text) => {
+  byId('answer').textContent = text;
+};
 
 /** For lessons: the program lets one act that is not shown, plain enough to be seen. */
 const hidden = () => live.state.hidden;
@@ -139,7 +141,8 @@ function showHidden() {
   byId('guess').value = '';
   const others = pair ? '' : ' and another load';
   if (one)
-    answer('One effect is at work. Look at the loops, and choose which one it is. ' +
+    answer(
+        'One effect is at work. Look at the loops, and choose which one it is. ' +
         `If nothing shows, try stairs${others}.`);
 }
 

@@ -112,27 +112,25 @@ class ValvePicture {
     part('text', {class: 'soft range', x: 62, y: floor + 73, 'text-anchor': 'middle'})
         .append(`${short(zero)} to ${short(span)} ${unit}`);
     part('text', {class: 'soft', x: 192, y: floor - 24}).append(`0 to ${short(supply_bar)} bar`);
-    this.bars = [
-      ['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']
-    ].filter(([name]) => name !== 'asked' || command.shut === undefined).map(([name, key], i) => {
-      const y = floor - 12 + 28 * i;
-      const label = part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'});
-      label.append(name);
-      const frame = part('rect', {class: 'frame', x: 192, y, width: 100, height: 16});
-      return {
-        key,
-        name: label,
-        frame,
-        bar: part('rect', {class: 'bar', x: 192, y, height: 16}),
-        text: part('text', {x: 298, y: y + 13})
-      };
-    });
+    this.bars = [['asked', 'reference_pressure'], ['valve', 'valve_pressure'], ['muscle', 'muscle_pressure']]
+                    .filter(([name]) => name !== 'asked' || command.shut === undefined)
+                    .map(([name, key], i) => {
+                      const y = floor - 12 + 28 * i;
+                      const label = part('text', {class: 'soft', x: 186, y: y + 13, 'text-anchor': 'end'});
+                      label.append(name);
+                      const frame = part('rect', {class: 'frame', x: 192, y, width: 100, height: 16});
+                      return {
+                        key,
+                        name: label,
+                        frame,
+                        bar: part('rect', {class: 'bar', x: 192, y, height: 16}),
+                        text: part('text', {x: 298, y: y + 13})
+                      };
+                    });
   }
 
   draw(values) {
-    write(
-        this.current,
-        command.name in values ? commandSays(values[command.name]) : 'not used');
+    write(this.current, command.name in values ? commandSays(values[command.name]) : 'not used');
     for (const {key, name, frame, bar, text} of this.bars) {
       const absent = values[key] === undefined || values[key] === null;  // no gauge
       for (const part of [name, frame, bar, text]) part.style.display = absent ? 'none' : '';

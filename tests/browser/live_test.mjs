@@ -110,8 +110,7 @@ test('it opens moving, and an effect that is hidden stays so until a guess finds
   for (const each of [page, other.page]) {
     await until(each, () => !document.getElementById('guess-line').hidden);
     assert.equal(await each.locator('.switch input:checked, .switch.on').count(), 0);
-    assert.match(
-        await each.textContent('#answer'), /^One effect is at work.*try stairs and another load\.$/);
+    assert.match(await each.textContent('#answer'), /^One effect is at work.*try stairs and another load\.$/);
     assert.ok(await each.locator('#all-off').isDisabled());
   }
   const offered = async (each) =>
