@@ -73,13 +73,17 @@ class Rides(unittest.TestCase):
 
     def test_python_goes_on_meanwhile(self):
         ride, seen = mckibben.Ride(load_kg=11.138), []
-        worker = threading.Thread(target=lambda: ride.follow(numpy.tile(CURRENTS, 500)))
-        worker.start()
-        while worker.is_alive():
+
+        def tried(job):
             try:
-                ride.step(9.0)
+                job()
             except RuntimeError as error:
                 seen.append(str(error))
+
+        worker = threading.Thread(target=tried, args=(lambda: ride.follow(numpy.tile(CURRENTS, 500)),))
+        worker.start()
+        while worker.is_alive():
+            tried(lambda: ride.step(9.0))  # whichever comes second is refused
         self.assertIn("it is at work in another thread", seen)
 
     def test_pressures_and_lengths_may_be_given(self):
