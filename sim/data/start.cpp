@@ -1,6 +1,7 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <span>
 #include <string>
 #include <utility>
@@ -32,9 +33,7 @@ std::optional<double> speed_at_first(const domain::Dataset& data, const domain::
       std::max(of_starts.least_rows, static_cast<std::size_t>(std::ceil(of_starts.look_s / row_s)));
   const std::vector<double>& read = run.judged();
   if (read.size() != model.size() || read.size() < rows) return std::nullopt;
-  if (!run.missing.empty() &&
-      std::find(run.missing.begin(), run.missing.begin() + static_cast<std::ptrdiff_t>(rows), true) !=
-          run.missing.begin() + static_cast<std::ptrdiff_t>(rows))
+  if (!run.missing.empty() && std::ranges::count(run.missing | std::views::take(rows), true) > 0)
     return std::nullopt;
   const std::span first(read.data(), rows);
   const double all = slope(first), at_once = slope(first.first(rows / 2)), rig = slope({model.data(), rows});

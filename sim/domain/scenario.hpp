@@ -256,6 +256,12 @@ inline Scenario lever_scenario() {
   return scenario;
 }
 
+/// What controllers know of a valve.
+inline controllers::ValveLine valve_line(const plant::Valve& valve) {
+  return {valve.zero_command,     valve.span_command,          valve.zero_pressure_Pa,
+          valve.span_pressure_Pa, name_of(valve.command_unit), valve.closed_command()};
+}
+
 /// Whether it plays a command, whatever the target.
 inline bool is_given(const controllers::Settings& settings) {
   return std::visit([]<class One>(const One&) { return controllers::is_one_of<One, CampaignWaveform>; },

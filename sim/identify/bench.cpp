@@ -46,7 +46,11 @@ std::string more_or_less(double value, const char* more = "more", const char* le
 class FaultReport {
  public:
   FaultReport(const Model& model, const Estimates& estimates)
-      : model_(model), estimates_(estimates), rows_(model.problem->rows), data_(rows_.data()) {}
+      : model_(model),
+        estimates_(estimates),
+        rows_(model.problem->rows),
+        data_(rows_.data()),
+        shared_(model.problem->dictionary.setting(model.point.alike_in(loads)).bench) {}
 
   std::vector<BenchFault> operator()() {
     for (std::size_t i = 0; i < model_.point.differ.size(); ++i) differing_runs(i);
@@ -62,11 +66,7 @@ class FaultReport {
   const domain::Run& run(std::size_t place) const { return data_.runs[rows_.runs[place]]; }
 
   /// A run's load with what is off in all.
-  double shared_load_kg(std::size_t place) const {
-    Bench bench = model_.problem->dictionary.setting(model_.point).bench;
-    bench.of_runs[loads].clear();
-    return bench.load_kg(run(place).load_kg, place);
-  }
+  double shared_load_kg(std::size_t place) const { return shared_.load_kg(run(place).load_kg, place); }
 
   /// A run of which that was reported with all that is off.
   bool has_its_own(int which, std::size_t place) const {
@@ -358,6 +358,7 @@ class FaultReport {
   const Estimates& estimates_;
   const Rows& rows_;
   const domain::Dataset& data_;
+  Bench shared_;  ///< without loads of single runs
   std::vector<BenchFault> list_;
 };
 

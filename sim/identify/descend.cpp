@@ -170,10 +170,10 @@ void Model::share_common_load() {
   const Dictionary& dictionary = problem->dictionary;
   const auto offset = std::ranges::find(dictionary.parameters, "joint.load_offset", &Dictionary::Free::path);
   std::vector<double>& loads_kg = point.of_runs[loads];
-  const auto place = static_cast<std::size_t>(std::ranges::find(point.differ, loads) - point.differ.begin());
-  if (loads_kg.empty() || place == point.differ.size() || point.z.size() == 0 ||
+  if (!point.lets_differ(loads) || loads_kg.empty() || point.z.size() == 0 ||
       offset == dictionary.parameters.end())
     return;
+  const auto place = static_cast<std::size_t>(std::ranges::find(point.differ, loads) - point.differ.begin());
   const double of_runs = std::pow(error.scale(place), -2.0), unit_kg = offset->scale;
   double& z = point.z[offset - dictionary.parameters.begin()];
   for (int pass = 0; pass < 50; ++pass) {  // normals that touch Student's t

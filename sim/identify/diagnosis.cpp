@@ -173,8 +173,7 @@ class HandingOver {
     const Model& found = found_.models[handed];
     Estimates estimates = estimates_of(found);
     result_.bench = bench_faults(found, estimates);
-    const auto& differ = found.point.differ;
-    if (std::ranges::find(differ, loads) != differ.end() && found.point.terms == Terms::none) {
+    if (found.point.lets_differ(loads) && found.point.terms == Terms::none) {
       step("fitting with the loads as they are reported");
       mended_.emplace(with_reported_loads(found, result_.bench));
       if (mended_->read.allFinite())
@@ -208,7 +207,7 @@ class HandingOver {
       if (std::ranges::any_of(open.parameters, unknown)) warn("not determined by these data: " + open.words);
   }
 
-  /// An estimate replaces what was guessed before.
+  /// An estimate replaces what was guessed before. What asks for a label to be mended comes first.
   void report_loads() {
     const auto offset = std::ranges::find(result_.recalibrated, "joint.load_offset",
                                           [](const diagnose::Moved& one) { return one.fitted.name; });
@@ -219,8 +218,10 @@ class HandingOver {
                (data_.parts_of_a_run || std::ranges::find(fault.runs, run) != fault.runs.end());
       });
     };
+    std::vector<std::string> doubts;
     for (const LoadDoubt& doubt : reporting_.of_loads)
-      if (std::ranges::none_of(doubt.runs, estimated)) warn(doubt.words);
+      if (std::ranges::none_of(doubt.runs, estimated)) doubts.push_back(doubt.words);
+    result_.warnings.insert(result_.warnings.begin(), doubts.begin(), doubts.end());
   }
 
   /// The rig as described, its parameters alone, and the one that is handed over.

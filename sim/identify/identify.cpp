@@ -308,13 +308,15 @@ Identified Search::found() && {
   const double most = named != nullptr ? missed(*named) : std::numeric_limits<double>::infinity();
   const double noise = std::max(rows_.noise.front(), rows_.count / std::sqrt(12.0));
   for (auto& [key, m] : table_) {
-    if (!counts(m) || (is_general(m) && missed(m) > most)) continue;
+    if (!counts(m)) continue;
+    const double misses = missed(m);
+    if (is_general(m) && misses > most) continue;
     result.table.push_back({.names = key.second,
                             .described = key.first,
                             .general = is_general(m),
                             .score = m.score,
                             .held_out = held_out(m, groups),
-                            .above_noise = std::max(0.0, std::pow(missed(m), 2) - noise * noise),
+                            .above_noise = std::max(0.0, misses * misses - noise * noise),
                             .off_sheet = m.off_sheet()});
     result.models.push_back(std::move(m));
   }

@@ -11,9 +11,7 @@ using diagnose::BenchFault;
 
 Model with_reported_loads(const Model& model, const std::vector<BenchFault>& faults) {
   const Rows& rows = model.problem->rows;
-  Point point = model.point;
-  std::erase(point.differ, loads);
-  point.of_runs[loads].clear();
+  Point point = model.point.alike_in(loads);
   const Bench shared = model.problem->dictionary.setting(point).bench;
   std::vector<double> off_kg(rows.runs.size(), 0.0);
   for (const BenchFault& fault : faults)
@@ -32,9 +30,10 @@ Model with_reported_loads(const Model& model, const std::vector<BenchFault>& fau
 domain::Dataset without_faults(const Model& model) {
   const Rows& rows = model.problem->rows;
   domain::Dataset data = rows.data();
-  Bench bench = model.problem->dictionary.setting(model.point).bench;
-  if (std::ranges::find(model.point.differ, loads) != model.point.differ.end())
-    bench.of_runs[loads].clear();  // where the model was simulated; `own` is most probable
+  // Where the model was simulated with loads of their own: `own` is most probable.
+  const Point& at = model.point;
+  const Bench bench =
+      model.problem->dictionary.setting(at.lets_differ(loads) ? at.alike_in(loads) : at).bench;
   for (std::size_t i = 0; i < rows.runs.size(); ++i) {
     domain::Run& run = data.runs[rows.runs[i]];
     double own_kg = 0.0;

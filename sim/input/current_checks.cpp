@@ -113,10 +113,7 @@ class GivenCommands {
 }  // namespace
 
 controllers::CurrentRange working_range(const plant::Rig& rig) {
-  return controllers::working_range(
-      {rig.valve.zero_command, rig.valve.span_command, rig.valve.zero_pressure_Pa, rig.valve.span_pressure_Pa,
-       name_of(rig.command_unit()), rig.valve.closed_command()},
-      rig.dac.largest_command);
+  return controllers::working_range(domain::valve_line(rig.valve), rig.dac.largest_command);
 }
 
 void follow_valve(controllers::Settings& settings, const Source& source, const Node& node,

@@ -229,11 +229,6 @@ controllers::ForceModel force_model(const plant::Muscle& muscle) {
           muscle.count};
 }
 
-controllers::ValveLine valve_line(const plant::Valve& valve) {
-  return {valve.zero_command,     valve.span_command,          valve.zero_pressure_Pa,
-          valve.span_pressure_Pa, name_of(valve.command_unit), valve.closed_command()};
-}
-
 }  // namespace
 
 controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> target) {
@@ -243,12 +238,12 @@ controllers::Knowledge knowledge_of(const plant::Rig& rig, std::vector<double> t
                                .largest_current_mA = rig.dac.largest_command,
                                .target = std::move(target),
                                .model = force_model(rig.muscle),
-                               .valve = valve_line(rig.valve),
+                               .valve = domain::valve_line(rig.valve),
                                .reach = {}};
   if (rig.has_angle()) known.wheel_radius_m = rig.joint.wheel_radius_m;
   if (const plant::Pair* pair = rig.pair())
     known.pair = {.opposite = force_model(pair->opposite.muscle),
-                  .opposite_valve = valve_line(pair->opposite.valve),
+                  .opposite_valve = domain::valve_line(pair->opposite.valve),
                   .mounted_ratio = pair->contraction_ratio,
                   .opposite_mounted_ratio = pair->opposite_contraction_ratio,
                   .stiffness_N_m_per_rad = {}};

@@ -162,13 +162,6 @@ void add_hypotheses(const std::vector<std::string>& files, domain::Dataset& data
   }
 }
 
-/// What asks for a label to be mended comes before what is only to be known.
-void load_doubts_first(const std::vector<identify::LoadDoubt>& doubts, std::vector<std::string>& warnings) {
-  std::ranges::stable_partition(warnings, [&](const std::string& warning) {
-    return std::ranges::find(doubts, warning, &identify::LoadDoubt::words) != doubts.end();
-  });
-}
-
 }  // namespace
 
 Prepared prepare(domain::Dataset& data, const std::vector<std::string>& hypotheses,
@@ -214,7 +207,6 @@ Found find(const domain::Dataset& data, const Diagnosing& how, const run::Progre
       {},
       {},
       std::move(identified.simulated)};
-  load_doubts_first(how.prepared.of_loads, found.diagnosis.warnings);
   found.nominal = run::replay(data, how.threads, progress);
   domain::Dataset mended = data;
   mended.rig = found.diagnosis.corrected;
