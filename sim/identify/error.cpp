@@ -169,81 +169,57 @@ RowMajor Error::rows_of(const Eigen::VectorXd& residual, const Eigen::MatrixXd& 
   return all;
 }
 
-/// Of each run: of given columns, then of what differs, then of its wander.
-struct Error::Whitened {
-  std::vector<Eigen::MatrixXd> grams;
-  std::vector<double> log_dets;
-};
-
-Error::Whitened Error::whitened(const RowMajor& columns) const {
-  const Index p = columns.cols(), more = static_cast<Index>(differ_.size()), runs = std::ssize(rows_->runs);
-  Whitened result{std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(runs)),
-                  std::vector<double>(static_cast<std::size_t>(runs), 0.0)};
+/// Of a block: of given columns, then of what differs, then of its run's wander and start.
+Whitened Error::whitened(const Block& block, const RowMajor& columns) const {
+  const bool judged = rows_->is_judged(block);
+  const std::size_t other = 3 + 2 * (block.kind - 1);
   const double jitter = std::exp(logs_[0]), q = rows_->count;
   // Of what counting adds, what jitter does not wash out stays (Widrow & Kollar 2008).
   double stays_square = 0.0;
-  if (q > 0.0)
+  if (judged && q > 0.0)
     for (int k = 1; k <= 5; ++k) {
       const double turns = 2.0 * std::numbers::pi * k * jitter / q;
       stays_square += q * q * std::exp(-turns * turns) / (2.0 * std::numbers::pi * std::numbers::pi * k * k);
     }
-  const double white_square = white() * white() - std::min(stays_square, white() * white());
-  const double alike = std::exp(-rows_->row_s / length_s());
-  for (std::size_t b = 0; b < rows_->blocks.size(); ++b) {
-    const Block& block = rows_->blocks[b];
-    const Index wanders = (*roots_)[block.run].rows() + static_cast<Index>(starts_),
-                wide = p + more + wanders;
-    const bool judged = rows_->is_judged(block);
-    const std::size_t other = 3 + 2 * (block.kind - 1);
-    const double noise_square = judged ? white_square : std::exp(2.0 * logs_[other]);
-    const double model_square = std::exp(2.0 * (judged ? logs_[1] : logs_[other + 1]));
-    const double counting_square = judged ? stays_square : 0.0;
-    RowMajor white_rows(block.rows, wide);
-    Eigen::RowVectorXd d = Eigen::RowVectorXd::Zero(wide), c = d, v = d;
-    double dd = model_square, dc = 0.0, cc = counting_square, log_det = 0.0;
-    for (Index i = 0; i < block.rows; ++i) {
-      const Index row = block.begin + i;
-      auto out = white_rows.row(i);
-      const double g = judged ? gain(row) : 1.0;
-      if (rows_->known[static_cast<std::size_t>(row)] != 0) {
-        v.head(p) = columns.row(row);
-        for (Index j = 0; j < more; ++j) v[p + j] = (*random_)(row, differ_[static_cast<std::size_t>(j)]);
-        v.tail(wanders) = random_->row(row).segment(std::ssize(differing), wanders);
-        const double to_d = g * dd + dc, to_c = g * dc + cc, square = g * to_d + to_c + noise_square;
-        v -= g * d + c;
-        out = v / std::sqrt(square);
-        log_det += std::log(square);
-        const double gain_d = to_d / square, gain_c = to_c / square;
-        d += gain_d * v;
-        c += gain_c * v;
-        dd -= gain_d * to_d;
-        dc -= gain_d * to_c;
-        cc -= gain_c * to_c;
-      } else {
-        out.setZero();
-      }
-      const double stays = counting_square > 0.0 ? rows_->stays[row] : 0.0;
-      d *= alike;
-      c *= stays;
-      dd = alike * alike * dd + model_square * (1.0 - alike * alike);
-      dc *= alike * stays;
-      cc = stays * stays * cc + counting_square * (1.0 - stays * stays);
-    }
-    Eigen::MatrixXd& gram = result.grams[block.run];
-    if (gram.size() == 0) gram = Eigen::MatrixXd::Zero(wide, wide);
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(white_rows.transpose());
-    result.log_dets[block.run] += log_det;
-  }
-  for (Eigen::MatrixXd& gram : result.grams) gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-  return result;
+  const auto begin = static_cast<std::size_t>(block.begin);
+  RowErrors errors{
+      .white_square = judged ? white() * white() - std::min(stays_square, white() * white())
+                             : std::exp(2.0 * logs_[other]),
+      .model_square = std::exp(2.0 * (judged ? logs_[model_sd] : logs_[other + 1])),
+      .counting_square = stays_square,
+      .alike = std::exp(-rows_->row_s / length_s()),
+      .gain = std::vector<double>(static_cast<std::size_t>(block.rows), 1.0),
+      .known = rows_->known.data() + begin,
+      .stays = rows_->stays.data() + begin,
+  };
+  if (judged)
+    for (Index i = 0; i < block.rows; ++i) errors.gain[static_cast<std::size_t>(i)] = gain(block.begin + i);
+  const Index p = columns.cols(), more = std::ssize(differ_);
+  const Index wanders = (*roots_)[block.run].rows() + static_cast<Index>(starts_);
+  return identify::whitened(errors, p + more + wanders, [&](Index i, double* row) {
+    const double* random = random_->row(block.begin + i).data();
+    row = std::copy_n(columns.row(block.begin + i).data(), p, row);
+    for (const int which : differ_) *row++ = random[which];
+    std::copy_n(random + differing.size(), wanders, row);
+  });
 }
 
-Grams Error::integrated(const Whitened& w, Index p) const {
+Grams Error::integrated(const std::vector<const Whitened*>& blocks, Index p) const {
+  const std::size_t runs = rows_->runs.size();
+  std::vector<Eigen::MatrixXd> grams(runs);
   Grams result;
-  result.log_dets = w.log_dets;
-  const auto more = static_cast<Index>(differ_.size());
-  for (std::size_t run = 0; run < w.grams.size(); ++run) {
-    const Eigen::MatrixXd& gram = w.grams[run];
+  result.log_dets.assign(runs, 0.0);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const std::size_t run = rows_->blocks[b].run;
+    if (grams[run].size() == 0)
+      grams[run] = blocks[b]->gram;
+    else
+      grams[run] += blocks[b]->gram;
+    result.log_dets[run] += blocks[b]->log_det;
+  }
+  const Index more = std::ssize(differ_);
+  for (std::size_t run = 0; run < runs; ++run) {
+    const Eigen::MatrixXd& gram = grams[run];
     const Index k = gram.rows() - p;
     Eigen::MatrixXd root = Eigen::MatrixXd::Zero(k, k);
     for (Index j = 0; j < more; ++j) root(j, j) = std::exp(logs_[base() + static_cast<std::size_t>(j)]);
@@ -269,7 +245,12 @@ Grams Error::integrated(const Whitened& w, Index p) const {
 }
 
 Grams Error::grams(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) const {
-  return integrated(whitened(rows_of(residual, columns)), 1 + columns.cols());
+  const RowMajor all = rows_of(residual, columns);
+  std::vector<Whitened> blocks;
+  for (const Block& block : rows_->blocks) blocks.push_back(whitened(block, all));
+  std::vector<const Whitened*> places;
+  for (const Whitened& block : blocks) places.push_back(&block);
+  return integrated(places, all.cols());
 }
 
 double log_evidence(const Eigen::MatrixXd& gram, double log_det, Index rows,
@@ -285,10 +266,12 @@ double log_evidence(const Eigen::MatrixXd& gram, double log_det, Index rows,
   return value - low.matrixLLT().diagonal().array().log().sum() + 0.5 * half.squaredNorm();
 }
 
-std::vector<double> Error::key() const {
-  std::vector<double> list(logs_.begin(), logs_.begin() + static_cast<std::ptrdiff_t>(base()));
-  list.erase(list.begin() + static_cast<std::ptrdiff_t>(wander_at()));
-  return list;
+std::vector<double> Error::key(std::size_t b) const {
+  const auto place = static_cast<double>(b);
+  if (rows_->is_judged(rows_->blocks[b]))
+    return {place, logs_[0], logs_[model_sd], logs_[2], logs_[constant_at()]};
+  const std::size_t other = 3 + 2 * (rows_->blocks[b].kind - 1);
+  return {place, logs_[other], logs_[other + 1], logs_[2]};
 }
 
 bool Error::allowed() const {
@@ -329,9 +312,13 @@ std::pair<Error, double> Error::fitted(const Eigen::VectorXd& residual, const Ei
     there.logs_ = logs;
     double value = impossible;
     if (there.allowed()) {
-      auto& w = known[there.key()];
-      if (w.grams.empty()) w = there.whitened(all);
-      const Grams grams = there.integrated(w, all.cols());
+      std::vector<const Whitened*> blocks;
+      for (std::size_t b = 0; b < rows_->blocks.size(); ++b) {
+        Whitened& block = known[there.key(b)];
+        if (block.gram.size() == 0) block = there.whitened(rows_->blocks[b], all);
+        blocks.push_back(&block);
+      }
+      const Grams grams = there.integrated(blocks, all.cols());
       value = log_evidence(grams.sum(), grams.log_det(), residual.size(), variance) + there.log_prior();
     }
     return values[logs] = value;

@@ -9,8 +9,8 @@
 //         g = hypot(|dh/d input| over its rms, constant)
 //   q     counting, q^2/12; of it stays from row to row what the load has not moved past (Widrow & Kollar
 //   2008) e     white noise            r  what is left;   H = X' Sigma^-1 X + curvature of the prior: Laplace
-// d and q are first-order each: a filter of two states whitens a column in O(rows). The numbers of the error
-// itself are fitted by restricted likelihood: columns of the model have had their say.
+// d and q are first-order each: a filter of two states whitens a column in O(rows) (whiten.hpp). The numbers
+// of the error itself are fitted by restricted likelihood: columns of the model have had their say.
 #pragma once
 
 #include <map>
@@ -21,6 +21,7 @@
 #include <Eigen/Core>
 
 #include <sim/identify/simulator.hpp>
+#include <sim/identify/whiten.hpp>
 
 namespace mckibben::identify {
 
@@ -85,11 +86,10 @@ class Error {
   static constexpr std::size_t model_sd = 1;
 
  private:
-  struct Whitened;
-  /// Of all but the sizes of what is integrated out.
-  std::vector<double> key() const;
-  Whitened whitened(const RowMajor& columns) const;
-  Grams integrated(const Whitened& whitened, Eigen::Index columns) const;
+  /// What a block whitened depends on.
+  std::vector<double> key(std::size_t block) const;
+  Whitened whitened(const Block& block, const RowMajor& columns) const;
+  Grams integrated(const std::vector<const Whitened*>& blocks, Eigen::Index columns) const;
   RowMajor rows_of(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) const;
   double log_prior() const;
   bool allowed() const;

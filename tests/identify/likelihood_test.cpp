@@ -24,7 +24,7 @@ struct Made {
     std::normal_distribution<double> normal;
     const double count =
         2.0 * std::numbers::pi * data.rig.joint.wheel_radius_m / 8000.0 / data.rig.muscle.rest_length_m;
-    for (const std::size_t rows : {60, 40}) {
+    for (const std::size_t rows : {150, 40}) {
       domain::Run& run = data.runs.emplace_back();
       run.id = "r";
       run.load_kg = 11.0 + static_cast<double>(rows);
@@ -59,7 +59,8 @@ TEST(Likelihood, IsWhatItsFormulaSays) {
   const Wander wander = wander_of(rows);
   const Error error = Error(rows, wander).with({gains});
   const VectorXd residual = VectorXd::Random(rows.size()) * rows.count;
-  const MatrixXd columns = MatrixXd::Random(rows.size(), 2) * rows.count;
+  const MatrixXd columns =
+      MatrixXd::Random(rows.size(), 9) * rows.count;  // of several tiles, the last not full
   const Grams grams = error.grams(residual, columns);
 
   // As an error begins: jitter 0.1 counts, model error a count for 1 s, wander 0.03, a gain of hypot(1, 0.3).
@@ -74,7 +75,7 @@ TEST(Likelihood, IsWhatItsFormulaSays) {
     for (Index i = 0; i < block.rows; ++i)
       if (rows.known[static_cast<std::size_t>(block.begin + i)] != 0) at.push_back(block.begin + i);
     const Index n = std::ssize(at);
-    EXPECT_EQ(n, run == 0 ? 59 : 40);
+    EXPECT_EQ(n, run == 0 ? 149 : 40);
     MatrixXd sigma = MatrixXd::Zero(n, n);
     for (Index i = 0; i < n; ++i)
       for (Index j = 0; j <= i; ++j) {
@@ -96,7 +97,7 @@ TEST(Likelihood, IsWhatItsFormulaSays) {
                                2.0);
     const VectorXd of_gain = wander.read(at) * 0.03;
     sigma += moved * alike * moved.transpose() + of_gain * of_gain.transpose();
-    MatrixXd all(n, 3);
+    MatrixXd all(n, 1 + columns.cols());
     all << residual(at), columns(at, Eigen::all);
     const Eigen::LLT<MatrixXd> factor(sigma);
     const MatrixXd expected = all.transpose() * factor.solve(all);
