@@ -305,14 +305,15 @@ std::optional<Alone> alone(const std::vector<Weighed>& list, bool exchangeable) 
 
 Finding wrong_label(const domain::Dataset& data, const Alone& found) {
   const auto& [run, label_kg, seems_kg] = found.run;
-  return {
-      .quantity = "load",
-      .runs = {run},
-      .message = fmt::format("{0} ({1} kg) moves like {2:.3g} kg, compared with the other runs, which agree "
-                             "with their labels: is this label wrong? Then load: {2:.3g} kg; or was its "
-                             "encoder set to zero elsewhere?",
-                             data.runs[run].id, domain::write_kg(label_kg), seems_kg / found.others.scale),
-      .severity = Severity::doubtful};
+  return {.quantity = "load",
+          .runs = {run},
+          .message = fmt::format(
+              "{0} ({1} kg) moves like {2:.3g} kg, compared with the other runs, which agree "
+              "with their labels. Is this label wrong? Then load: {2:.3g} kg, roughly, as the rig "
+              "may lack an effect (`mckibben diagnose` weighs it beside what is missing). Or "
+              "was its encoder set to zero elsewhere?",
+              data.runs[run].id, domain::write_kg(label_kg), seems_kg / found.others.scale),
+          .severity = Severity::doubtful};
 }
 
 /// Whether each run that got another label seems to weigh it.

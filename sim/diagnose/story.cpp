@@ -284,9 +284,8 @@ std::string verdict_in_words(const Diagnosis& d) {
 std::string because(const Diagnosis& diagnosis) {
   std::string open = bench_in_words(diagnosis, false);
   if (!open.empty()) open = " " + open.substr(0, open.size() - 1);
-  return bench_in_words(diagnosis, true) + faults_in_words(diagnosis) +
-         (diagnosis.ended == Ended::no ? "" : "So far: ") + verdict_in_words(diagnosis) + open +
-         search_in_words(diagnosis);
+  return (diagnosis.ended == Ended::no ? "" : "So far: ") + bench_in_words(diagnosis, true) +
+         faults_in_words(diagnosis) + verdict_in_words(diagnosis) + open + search_in_words(diagnosis);
 }
 
 }  // namespace mckibben::diagnose

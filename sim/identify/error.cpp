@@ -1,5 +1,6 @@
 // See the header.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,7 @@
 
 #include <sim/identify/decisive.hpp>
 #include <sim/identify/error.hpp>
+#include <sim/run/batch.hpp>
 
 namespace mckibben::identify {
 
@@ -32,7 +34,7 @@ double usual_length_s(const Rows& rows) {
 
 }  // namespace
 
-Error::Error(const Rows& rows, const Wander& wander) : rows_(&rows) {
+Error::Error(const Rows& rows, const Wander& wander, unsigned threads) : rows_(&rows), threads_(threads) {
   logs_ = {std::log(rows.count > 0.0 ? 0.1 * rows.count : rows.noise.front()), std::log(rows.unit),
            std::log(usual_length_s(rows))};
   for (std::size_t kind = 1; kind < rows.kinds.size(); ++kind)
@@ -204,7 +206,18 @@ Whitened Error::whitened(const Block& block, const RowMajor& columns) const {
   });
 }
 
-Grams Error::integrated(const std::vector<const Whitened*>& blocks, Index p) const {
+void Error::whiten(const RowMajor& columns, const std::vector<Whitened*>& blocks) const {
+  std::vector<std::size_t> missing;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (blocks[b]->gram.size() == 0) missing.push_back(b);
+  std::atomic<std::size_t> next{0};
+  run::side_by_side(threads_, missing.size(), [&] {
+    for (std::size_t i = next++; i < missing.size(); i = next++)
+      *blocks[missing[i]] = whitened(rows_->blocks[missing[i]], columns);
+  });
+}
+
+Grams Error::integrated(const std::vector<Whitened*>& blocks, Index p) const {
   const std::size_t runs = rows_->runs.size();
   std::vector<Eigen::MatrixXd> grams(runs);
   Grams result;
@@ -246,11 +259,11 @@ Grams Error::integrated(const std::vector<const Whitened*>& blocks, Index p) con
 
 Grams Error::grams(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) const {
   const RowMajor all = rows_of(residual, columns);
-  std::vector<Whitened> blocks;
-  for (const Block& block : rows_->blocks) blocks.push_back(whitened(block, all));
-  std::vector<const Whitened*> places;
-  for (const Whitened& block : blocks) places.push_back(&block);
-  return integrated(places, all.cols());
+  std::vector<Whitened> made(rows_->blocks.size());
+  std::vector<Whitened*> blocks;
+  for (Whitened& block : made) blocks.push_back(&block);
+  whiten(all, blocks);
+  return integrated(blocks, all.cols());
 }
 
 double log_evidence(const Eigen::MatrixXd& gram, double log_det, Index rows,
@@ -312,12 +325,9 @@ std::pair<Error, double> Error::fitted(const Eigen::VectorXd& residual, const Ei
     there.logs_ = logs;
     double value = impossible;
     if (there.allowed()) {
-      std::vector<const Whitened*> blocks;
-      for (std::size_t b = 0; b < rows_->blocks.size(); ++b) {
-        Whitened& block = known[there.key(b)];
-        if (block.gram.size() == 0) block = there.whitened(rows_->blocks[b], all);
-        blocks.push_back(&block);
-      }
+      std::vector<Whitened*> blocks;
+      for (std::size_t b = 0; b < rows_->blocks.size(); ++b) blocks.push_back(&known[there.key(b)]);
+      there.whiten(all, blocks);
       const Grams grams = there.integrated(blocks, all.cols());
       value = log_evidence(grams.sum(), grams.log_det(), residual.size(), variance) + there.log_prior();
     }

@@ -41,7 +41,7 @@ struct Grams {
 
 class Error {
  public:
-  Error(const Rows& rows, const Wander& wander);
+  Error(const Rows& rows, const Wander& wander, unsigned threads = 1);
 
   /// With another wander, after the setting has moved.
   void take(const Wander& wander);
@@ -89,7 +89,9 @@ class Error {
   /// What a block whitened depends on.
   std::vector<double> key(std::size_t block) const;
   Whitened whitened(const Block& block, const RowMajor& columns) const;
-  Grams integrated(const std::vector<const Whitened*>& blocks, Eigen::Index columns) const;
+  /// Those that have not been, side by side.
+  void whiten(const RowMajor& columns, const std::vector<Whitened*>& blocks) const;
+  Grams integrated(const std::vector<Whitened*>& blocks, Eigen::Index columns) const;
   RowMajor rows_of(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns) const;
   double log_prior() const;
   bool allowed() const;
@@ -99,6 +101,7 @@ class Error {
   double gain(Eigen::Index row) const;
 
   const Rows* rows_;
+  unsigned threads_;
   std::vector<double> logs_, start_;  ///< jitter, model error, its length; noise and error of each other
                                       ///< kind; wander, constant part of the gain; scales of what differs
   std::vector<int> differ_;

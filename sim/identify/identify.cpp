@@ -78,7 +78,7 @@ Model Search::begun(Point point) const {
 }
 
 Model Search::refined(Model m) {
-  m.settle({.beat = best_score() - clear});
+  m.settle({.enough = decisive.strong, .beat = best_score() - clear});  // `last` is fitted to the end
   if (m.hopeless)
     m.log_evidence = m.here().evidence;
   else
@@ -211,7 +211,7 @@ void Search::begin() {
                   rows_.size(), rows_.row_s, rows_.runs.size(), rows_.unit, rows_.count,
                   fmt::join(rows_.noise, " ")));
   const Wander wander = problem_.simulator.wander(dictionary_.setting(dictionary_.described()));
-  at_.emplace(problem_, dictionary_.nominal(), Error(rows_, wander));
+  at_.emplace(problem_, dictionary_.nominal(), Error(rows_, wander, settings_.threads));
   at_->look();
   // fit
   Model described(problem_, dictionary_.described(), at_->error);

@@ -97,6 +97,16 @@ Deadline::~Deadline() {
   asked_here->deadline = Clock::time_point::max();
 }
 
+void side_by_side(unsigned threads, std::size_t most, const std::function<void()>& work) {
+  const std::size_t wanted = threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads;
+  std::vector<std::jthread> others;
+  try {
+    for (std::size_t i = 1; i < std::min(wanted, most); ++i) others.emplace_back(inheriting(work));
+  } catch (const std::system_error&) {  // no more threads are to be had: these do it
+  }
+  work();
+}
+
 void for_each_job(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& job,
                   const std::function<void(std::size_t)>& done) {
   std::atomic<std::size_t> next{0}, ended{0};
@@ -113,15 +123,7 @@ void for_each_job(std::size_t count, unsigned threads, const std::function<void(
       done(++ended);
     }
   };
-  const std::size_t wanted = threads == 0 ? std::max(1u, std::thread::hardware_concurrency()) : threads;
-  {
-    std::vector<std::jthread> others;
-    try {
-      for (std::size_t i = 1; i < std::min(wanted, count); ++i) others.emplace_back(inheriting(work));
-    } catch (const std::system_error&) {  // no more threads are to be had: these do it
-    }
-    work();
-  }
+  side_by_side(threads, count, work);
   for (const auto& failure : failures)
     if (failure) std::rethrow_exception(failure);
   if (next < count) throw Interrupted();

@@ -79,6 +79,10 @@ class Deadline {
 /// Why a run has no result that was not begun when the user stopped.
 inline constexpr const char* not_begun = "interrupted before it began";
 
+/// Does `work` on `threads` threads at once (0: as many as the machine has; fewer where no more are to be
+/// had), this one among them, at most `most`, and waits.
+void side_by_side(unsigned threads, std::size_t most, const std::function<void()>& work);
+
 /// Calls job(0) ... job(count - 1) on `threads` threads (0: as many as the machine has) and waits. `done`
 /// hears how many have ended, from any thread. The first failure by index is thrown again after all have
 /// ended; Interrupted if the user asked to stop before all were begun.
