@@ -12,6 +12,13 @@ constexpr double settling_s = 1.0;  // at the first current, before tick 0
 
 }  // namespace
 
+void CalibratedSettings::follow(const CurrentRange& range) {
+  const bool open = !weighing.speed_mA_per_s;
+  weighing.follow(range);
+  const double lowest = model.range.lowest_speed_mA_per_s, highest = model.range.highest_speed_mA_per_s;
+  if (open && highest > 0.0) weighing.speed_mA_per_s = std::clamp(*weighing.speed_mA_per_s, lowest, highest);
+}
+
 CalibratedController::CalibratedController(const CalibratedSettings& settings, const Knowledge& knowledge)
     : settings_(settings), knowledge_(knowledge) {
   settings_.follow(working_range(knowledge));

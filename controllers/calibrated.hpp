@@ -35,7 +35,8 @@ struct CalibratedSettings : CalibrationTerms {
   WeighingSettings weighing;
   bool extrapolate_target = false;
 
-  void follow(const CurrentRange& range) { weighing.follow(range); }
+  /// What is left open of the weighing; its speed is one that the calibration was made with.
+  void follow(const CurrentRange& range);
 
   static void fields(auto& self, auto& visit) {
     CalibrationTerms::fields(self, visit);

@@ -23,8 +23,9 @@ struct WeighingSettings {
 
   static void fields(auto& self, auto& visit) {
     visit("contractions", self.contractions, 2, 1000, "how often the load is lifted (T 4.3: five times)");
-    visit("speed", self.speed_mA_per_s, "mA/s", 1e-3, 1e5,
-          "speed of the command; 3/8 of the valve's span in a second if absent");
+    visit(
+        "speed", self.speed_mA_per_s, "mA/s", 1e-3, 1e5,
+        "speed of the command; 3/8 of the valve's span in a second if absent, within the calibrated speeds");
     visit("low", self.low_mA, "mA", 0.0, 100.0,
           "command between two contractions; the valve's zero_command if absent");
     visit("high", self.high_mA, "mA", 0.0, 100.0,

@@ -36,8 +36,8 @@ void add_choice(CLI::App& verb, const char* name, T& value, const std::map<std::
 }
 
 int calibrate_dataset(const CalibrateOptions& options) {
-  const domain::Dataset dataset =
-      tasks::ticked(tasks::read_measured(options.dataset, options.rig, tasks::replace_rig), say);
+  const domain::Dataset dataset = tasks::ticked(
+      tasks::read_measured(options.dataset, options.rig, tasks::replace_rig), options.fits.orders, say);
   Job job(options, "calibrate " + options.dataset, output::name_of(dataset) + "-calibrate", dataset.inputs);
   const thesis::CalibrationResult result = thesis::calibrate(dataset, options.fits);
   if (run::interrupted()) throw run::Interrupted();

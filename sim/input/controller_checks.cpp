@@ -35,13 +35,13 @@ class ControllerChecker {
         look_for_library(plugin->library, *node.find("library"));
       if (const auto* filter = controllers::filter_of(scenario_.controllers[i]))
         check_filter(*filter, *node.find("command_filter")->find("frequency"));
+      if (auto* calibrated = controllers::part_of<controllers::CalibrationTerms>(scenario_.controllers[i]))
+        load_calibration(*calibrated, controllers::weighing_of(scenario_.controllers[i]), node);
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
       check_sets_a_pressure(scenario_.controllers[i], *node.find("kind"));
       if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())
         load_believed_rig(name, *node.find("rig"));
-      if (auto* calibrated = controllers::part_of<controllers::CalibrationTerms>(scenario_.controllers[i]))
-        load_calibration(*calibrated, controllers::weighing_of(scenario_.controllers[i]), node);
     }
   }
 
@@ -121,13 +121,11 @@ class ControllerChecker {
     if (settings.assumed_load_kg) {
       check(node.find("assumed_load"), "assumed_load", *settings.assumed_load_kg, range.lowest_load_kg,
             range.highest_load_kg, "kg", "");
-    } else if (contractions != nullptr) {
-      const Node* weighing = node.find("weighing");
+    } else if (contractions != nullptr && contractions->speed_mA_per_s) {
       const double speed = *contractions->speed_mA_per_s, lowest = range.lowest_speed_mA_per_s,
                    highest = range.highest_speed_mA_per_s;
       const std::string unit = in_unit(scenario_.rig.command_unit(), "mA/s");
-      check(weighing != nullptr ? weighing->find("speed") : nullptr, "weighing.speed", speed, lowest, highest,
-            unit,
+      check(node.find("weighing")->find("speed"), "weighing.speed", speed, lowest, highest, unit,
             fmt::format("write weighing: {{speed: {} {}}}, ",
                         domain::write_number(std::clamp(speed, lowest, highest)), unit));
     }

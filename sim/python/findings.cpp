@@ -59,7 +59,8 @@ Calibration calibrate(const domain::Dataset& dataset, const std::string& pressur
   options.orders.speed = order(speed_order, 2, "speed_order");
   return long_work(progress, [&](const run::ProgressHook& hook) {
     hook("calibrating", 0, 1);
-    const auto data = std::make_shared<const domain::Dataset>(tasks::ticked(dataset, [](const auto&) {}));
+    const auto data =
+        std::make_shared<const domain::Dataset>(tasks::ticked(dataset, options.orders, [](const auto&) {}));
     Calibration made{data, options, thesis::calibrate(*data, options)};
     if (run::interrupted()) throw run::Interrupted();
     hook("calibrating", 1, 1);

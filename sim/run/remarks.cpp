@@ -171,7 +171,7 @@ std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const co
         "commands",
         outside, wanted.ratios.size(), range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
         name_of(rig.command_unit()));
-  return text + "; feedback helps (kind: feedforward_pid), and so does a calibration of this rig";
+  return text + "; two remedies: feedback (kind: feedforward_pid), or a calibration made with this rig";
 }
 
 std::string load_warning(const TrackedRun& run, const controllers::Settings& settings) {

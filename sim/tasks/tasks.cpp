@@ -111,10 +111,12 @@ std::vector<std::string> checked(const domain::Dataset& data) {
 
 }  // namespace
 
-domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say) {
+domain::Dataset ticked(domain::Dataset data, const thesis::Orders& orders,
+                       const std::function<void(const std::string&)>& say) {
   thesis::require_pressure_valve(data);
   const bool stamped = data.own_clock && input::why_unfit(domain::Purpose::calibration, data).empty();
   if (!stamped) input::require_ticks(data, "calibrate");
+  thesis::require_enough_runs(data, orders);
   for (const std::string& warning : checked(data)) say("warning: " + warning);
   if (!stamped) return data;
   data = data::with_rows(std::move(data));

@@ -12,6 +12,7 @@
 #include <sim/identify/diagnosis.hpp>
 #include <sim/identify/simulator.hpp>
 #include <sim/run/replay.hpp>
+#include <sim/thesis/pressure_model.hpp>
 
 namespace mckibben::tasks {
 
@@ -39,7 +40,8 @@ std::vector<std::string> warnings_of(const domain::Dataset& dataset,
 
 /// A data set with a row each tick: what it is, or rows made of its stamps; `say` hears that, and what
 /// `check` says of the data. Throws input::BadInput, data::UnfitData where it cannot be.
-domain::Dataset ticked(domain::Dataset data, const std::function<void(const std::string&)>& say);
+domain::Dataset ticked(domain::Dataset data, const thesis::Orders& orders,
+                       const std::function<void(const std::string&)>& say);
 
 // A diagnosis.
 

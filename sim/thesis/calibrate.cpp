@@ -1,5 +1,7 @@
 // See the header.
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,14 +29,43 @@ std::string runs_left_out(const Grid& grid) {
 
 using Wrong = std::vector<data::Finding>;
 
-/// Too few for an order. If that is because nothing moved, more of the same would not help: the cause leads.
-data::Finding too_few(const domain::Dataset& dataset, const Grid& grid, const std::string& short_of,
-                      const std::string& more, const char* option, std::size_t order) {
-  const std::string still = grid.still_runs(dataset.rig.valve);
-  const std::string instead = fmt::format(", or set {} {}", option, order);
-  return {.message = still.empty()
-                         ? fmt::format("{}: measure {}{}{}", short_of, more, instead, runs_left_out(grid))
-                         : fmt::format("{}{}. Without these runs, {}", still, instead, short_of)};
+/// What there is with one load: speeds, or as long as these are not known, runs.
+struct AtLoad {
+  double load_kg = 0.0;
+  std::size_t speeds = 0;
+  std::string words;
+};
+
+/// All that the orders need and the data set lacks, in one message; empty if nothing.
+std::string too_few(const domain::Dataset& dataset, const Orders& orders, const std::vector<AtLoad>& there,
+                    std::size_t merged_loads) {
+  constexpr int highest_speed_order = 2, highest_load_order = 3;  // T 4.13, T 4.15
+  const auto loads = static_cast<std::size_t>(std::min(orders.load, highest_load_order)) + 1;
+  const auto speeds = static_cast<std::size_t>(std::min(orders.speed, highest_speed_order)) + 1;
+  std::string kg, lacking;
+  std::size_t fewest = speeds;
+  for (const AtLoad& one : there) {
+    kg += fmt::format("{}{:.5g}", kg.empty() ? "" : ", ", one.load_kg);
+    if (one.speeds >= speeds) continue;
+    fewest = std::min(fewest, one.speeds);
+    lacking += fmt::format("{}{:.5g} kg ({})", lacking.empty() ? "" : ", ", one.load_kg, one.words);
+  }
+  const bool few_loads = there.size() < loads;
+  if (!few_loads && lacking.empty()) return "";
+  return in_unit(
+      dataset.rig.command_unit(),
+      fmt::format(
+          "calibrate needs {} load{} and, with each, {} speed{} of the current. There {} {} load{} ({} "
+          "kg{}){}. Measure {}{}{}, or set {}{}{}",
+          loads, loads == 1 ? "" : "s", speeds, speeds == 1 ? "" : "s", there.size() == 1 ? "is" : "are",
+          there.size(), there.size() == 1 ? "" : "s", kg,
+          merged_loads > 0 ? "; loads within 0.1 % of each other are one" : "",
+          lacking.empty() ? "" : "; too few speeds with " + lacking, few_loads ? "more loads" : "",
+          few_loads && !lacking.empty() ? " and " : "",
+          lacking.empty() ? "" : "sines or triangles of more periods",
+          few_loads ? fmt::format("--load-order {}", there.size() - 1) : "",
+          few_loads && !lacking.empty() ? " " : "",
+          lacking.empty() ? "" : fmt::format("--speed-order {}", fewest - 1)));
 }
 
 /// Effects that change the pull otherwise than by what is counted, or friction: neither the force balance nor
@@ -66,36 +97,21 @@ void check_effects(const domain::Dataset& dataset, Wrong& wrong) {
              changed)});
 }
 
-/// Enough loads and speeds for the orders that are asked for.
+/// Enough loads and speeds for the orders that are asked for. If too few because nothing moved, more of the
+/// same would not help: the cause leads.
 void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options& options, Wrong& wrong) {
-  constexpr int highest_speed_order = 2, highest_load_order = 3;  // T 4.13, T 4.15
-  const auto loads = static_cast<std::size_t>(std::min(options.orders.load, highest_load_order)) + 1;
-  const auto speeds = static_cast<std::size_t>(std::min(options.orders.speed, highest_speed_order)) + 1;
-  if (grid.loads_kg.size() < loads)
-    wrong.push_back(
-        too_few(dataset, grid,
-                fmt::format("a polynomial of order {} in the load (T 4.14 to 4.28) needs {} loads, and there "
-                            "{} {} ({} kg{})",
-                            loads - 1, loads, grid.loads_kg.size() == 1 ? "is" : "are", grid.loads_kg.size(),
-                            listed(grid.loads_kg),
-                            grid.merged_loads > 0 ? "; loads within 0.1 % of each other are one" : ""),
-                "more loads", "--load-order", grid.loads_kg.size() - 1));
-  if (!wrong.empty() && !grid.still_runs(dataset.rig.valve).empty()) return;
+  std::vector<AtLoad> there;
   for (const double load_kg : grid.loads_kg) {
     std::vector<double> found;
     for (const Cell& cell : grid.of(Direction::contraction))
       if (cell.load_kg == load_kg) found.push_back(cell.speed_mA_per_s);
-    if (found.size() >= speeds) continue;
-    return wrong.push_back(too_few(
-        dataset, grid,
-        in_unit(
-            dataset.rig.command_unit(),
-            fmt::format(
-                "a polynomial of order {} in the current's speed (T 4.9 to 4.13) needs {} speeds, and "
-                "with {:g} kg there {} {} ({} mA/s)",
-                speeds - 1, speeds, load_kg, found.size() == 1 ? "is" : "are", found.size(), listed(found))),
-        "more periods of the " + plant::command_key(dataset.rig), "--speed-order", found.size() - 1));
+    there.push_back({load_kg, found.size(), listed(found) + " mA/s"});
   }
+  const std::string short_of = too_few(dataset, options.orders, there, grid.merged_loads);
+  if (short_of.empty()) return;
+  const std::string still = grid.still_runs(dataset.rig.valve);
+  wrong.push_back({.message = still.empty() ? short_of + runs_left_out(grid)
+                                            : fmt::format("{}. Without these runs, {}", still, short_of)});
 }
 
 /// Friction that drives the motion on the whole is no friction.
@@ -164,6 +180,16 @@ void require_pressure_valve(const domain::Dataset& dataset) {
     refuse(dataset,
            "the rig's valve is on_off, which sets a flow: the thesis's models are of a valve that sets a "
            "pressure (servo, regulator). Controllers with a model of the whole rig (model_inverse) count it");
+}
+
+void require_enough_runs(const domain::Dataset& dataset, const Orders& orders) {
+  std::map<double, std::size_t> runs;
+  for (const domain::Run& run : dataset.runs) ++runs[run.load_kg];
+  std::vector<AtLoad> there;
+  for (const auto& [load_kg, count] : runs)
+    there.push_back({load_kg, count, fmt::format("{} run{}", count, count == 1 ? "" : "s")});
+  if (std::string message = too_few(dataset, orders, there, 0); !message.empty())
+    refuse(dataset, std::move(message));
 }
 
 CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options) {

@@ -42,6 +42,9 @@ struct CalibrationResult {
 /// Throws data::UnfitData if the rig's valve is none of those that the models are of.
 void require_pressure_valve(const domain::Dataset& dataset);
 
+/// Throws data::UnfitData if loads and runs are too few for the orders, whatever the runs hold.
+void require_enough_runs(const domain::Dataset& dataset, const Orders& orders);
+
 /// Throws data::UnfitData if the data set cannot bear the fits; the message says what would help.
 CalibrationResult calibrate(const domain::Dataset& dataset, const Options& options);
 

@@ -108,7 +108,10 @@ TEST(Calibrate, RefusesTooFewLoadsAndSaysWhatHelps) {
   ASSERT_EQ(mckibben("dataset small.yaml --out data", scratch).status, 0);
   const Said said = mckibben("calibrate data --out cal", scratch);
   EXPECT_EQ(said.status, 65);
-  EXPECT_TRUE(holds(said.err, "needs 4 loads, and there are 2"));
+  EXPECT_TRUE(holds(said.err,
+                    "calibrate needs 4 loads and, with each, 3 speeds of the current. There are 2 loads "
+                    "(11.138, 14 kg). Measure more loads, or set --load-order 1\n"));
+  EXPECT_TRUE(lacks(said.err, "warning")) << "said before anything is simulated";
   EXPECT_FALSE(std::filesystem::exists(scratch / "cal"));
   EXPECT_EQ(mckibben("calibrate data --out cal --load-order 1", scratch).status, 0);
   const std::string data_set = read_text(scratch / "data" / "dataset.yaml");

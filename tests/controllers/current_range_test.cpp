@@ -58,6 +58,10 @@ TEST(CurrentRange, WeighingFollowsItInTheThesissProportions) {
   EXPECT_EQ(settings.weighing.low_mA, 4.0);
   EXPECT_EQ(settings.weighing.high_mA, 8.0);
   EXPECT_EQ(settings.weighing.speed_mA_per_s, 6.0);
+  OpenLoopSettings slower;
+  slower.model.range = {.lowest_speed_mA_per_s = 1.0, .highest_speed_mA_per_s = 4.5};
+  slower.follow(thesis);
+  EXPECT_EQ(slower.weighing.speed_mA_per_s, 4.5) << "the calibration knows none of 6 mA/s";
   WeighingSettings weighing;
   weighing.follow(other);
   EXPECT_EQ(weighing.low_mA, 0.0);

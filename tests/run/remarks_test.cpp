@@ -73,15 +73,15 @@ TEST(Remarks, AnOpenLoopThatEndsOffItsTargetIsToldWhy) {
             "it ends 15.0 mm below its target and began 15.0 mm above target.start, to which no feedback "
             "brings it; at 120 of 200 ticks its command should change slower or faster than those of the "
             "calibration, 5.5 to 17 mA/s, and it takes the nearest: extrapolate_target: true, or calibrate "
-            "with such commands; feedback helps (kind: feedforward_pid), and so does a calibration of this "
-            "rig");
+            "with such commands; two remedies: feedback (kind: feedforward_pid), or a calibration made with "
+            "this rig");
   settings.extrapolate_target = true;
   settings.assumed_load_kg = 12.0;
   run.recording.samples.front().state.joint.contraction_ratio = 0.03;
   EXPECT_EQ(
       missed_warning(run, wanted, settings, rig),
-      "it ends 15.0 mm below its target; feedback helps (kind: feedforward_pid), and so does a calibration "
-      "of this rig");
+      "it ends 15.0 mm below its target; two remedies: feedback (kind: feedforward_pid), or a calibration "
+      "made with this rig");
 
   EXPECT_EQ(missed_warning(run, wanted, controllers::FeedforwardPidSettings{}, rig), "") << "has feedback";
   wanted.ratios.back() = 0.12;
