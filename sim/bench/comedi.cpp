@@ -1,5 +1,7 @@
 // Boards by libcomedi; see the header. Counters are set up as National Instruments' are; those of other
 // boards, which count an encoder without being told, refuse that and count.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <sim/bench/comedi.hpp>
@@ -11,6 +13,29 @@
 #endif
 
 namespace mckibben::bench {
+namespace {
+
+constexpr double usual_V = 10.0;
+
+}  // namespace
+
+std::string unusual_range(const Wiring& wiring, const plant::Rig& rig) {
+  if (rig.command_unit() != plant::CommandUnit::V) {
+    const double full_scale_V = wiring.full_scale_V.value_or(usual_V);
+    if (full_scale_V <= usual_V) return "";
+    return fmt::format(
+        "--full-scale {0:g} V: most boards give 0 to {1:g} V at most; use a stage that makes {2:g} {3} of "
+        "{1:g} V, and leave out --full-scale",
+        full_scale_V, usual_V, rig.dac.largest_command, name_of(rig.command_unit()));
+  }
+  const double lowest = rig.dac.lowest_command, largest = rig.dac.largest_command;
+  if (lowest >= -usual_V && largest <= usual_V) return "";
+  return fmt::format(
+      "the rig's dac gives {:g} to {:g} V, and most boards {:g} to {:g} V at most: write dac: "
+      "{{lowest_command: {:g} V, largest_command: {:g} V}}; behind an amplifier, write zero_command, "
+      "span_command and dac in volts before it",
+      lowest, largest, -usual_V, usual_V, std::max(lowest, -usual_V), std::min(largest, usual_V));
+}
 
 #ifdef MCKIBBEN_COMEDI
 namespace {
@@ -29,7 +54,7 @@ class Comedi final : public Device {
     const int channels = comedi_get_n_channels(board_.get(), output_);
     if (channels < 0 || channel_ >= static_cast<unsigned>(channels))
       fail(fmt::format("subdevice {} has {} channels, none is number {}", output_, channels, channel_));
-    choose_range(rig, wiring.full_scale_V.value_or(10.0));
+    choose_range(rig, wiring);
     start_counting(wiring);
   }
 
@@ -70,8 +95,9 @@ class Comedi final : public Device {
 
   /// A range in what the valve takes as it is; else one in volts over a stage that makes the largest command
   /// of the full scale.
-  void choose_range(const plant::Rig& rig, double full_scale_V) {
+  void choose_range(const plant::Rig& rig, const Wiring& wiring) {
     using enum plant::CommandUnit;
+    const double full_scale_V = wiring.full_scale_V.value_or(usual_V);
     const auto unit = rig.command_unit();
     const double lowest = rig.dac.lowest_command, largest = rig.dac.largest_command;
     int number = -1;
@@ -86,7 +112,11 @@ class Comedi final : public Device {
       per_command_ = full_scale_V / largest;
       sought += fmt::format("{}0 to {:g} V", sought.empty() ? "from " : " or ", full_scale_V);
     }
-    if (number < 0) fail(fmt::format("subdevice {} has no range {}", output_, sought));
+    if (number < 0) {
+      const std::string advice = unusual_range(wiring, rig);
+      fail(fmt::format("subdevice {} has no range {}{}", output_, sought,
+                       advice.empty() ? "" : "; " + advice));
+    }
     range_number_ = static_cast<unsigned>(number);
     range_ = comedi_get_range(board_.get(), output_, channel_, range_number_);
     output_top_ = comedi_get_maxdata(board_.get(), output_, channel_);

@@ -28,6 +28,10 @@ struct Wiring {
 /// Whether this program was built where libcomedi is.
 bool has_comedi();
 
+/// Voltages that hardly any board gives, and what to write; empty where the output needs none. Before a board
+/// is opened its ranges are not known.
+std::string unusual_range(const Wiring& wiring, const plant::Rig& rig);
+
 /// The board of a device file such as /dev/comedi0; its counter begins at 0. Throws DeviceFailure: what
 /// cannot be opened, has no such output or counter, or no range for the commands; without libcomedi, always.
 std::unique_ptr<Device> open_comedi(const std::string& file, const Wiring& wiring, const plant::Rig& rig);

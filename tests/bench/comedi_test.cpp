@@ -77,7 +77,11 @@ TEST(ComediBench, GivesAValveItsVoltsAsTheyAre) {
   board->put(5.0, 0.0);
   EXPECT_EQ(stand_in().written, 0xBFFFU);
   volts.dac.largest_command = 12.0;
-  EXPECT_EQ(refusal("/dev/comedi0", {}, volts), "/dev/comedi0: subdevice 1 has no range from -5 to 12 V");
+  EXPECT_EQ(
+      refusal("/dev/comedi0", {}, volts),
+      "/dev/comedi0: subdevice 1 has no range from -5 to 12 V; the rig's dac gives -5 to 12 V, and most "
+      "boards -10 to 10 V at most: write dac: {lowest_command: -5 V, largest_command: 10 V}; behind an "
+      "amplifier, write zero_command, span_command and dac in volts before it");
   stand_in() = {};
 }
 
@@ -105,8 +109,10 @@ TEST(ComediBench, SaysWhatIsWrongWithTheWiring) {
   EXPECT_EQ(refusal("/dev/comedi0", {.counter = 1}), "/dev/comedi0: subdevice 1 is no counter");
   EXPECT_EQ(refusal("/dev/comedi0", {.channel = 2}),
             "/dev/comedi0: subdevice 1 has 2 channels, none is number 2");
-  EXPECT_EQ(refusal("/dev/comedi0", {.full_scale_V = 12.0}),
-            "/dev/comedi0: subdevice 1 has no range from 0 to 20 mA or 0 to 12 V");
+  EXPECT_EQ(
+      refusal("/dev/comedi0", {.full_scale_V = 12.0}),
+      "/dev/comedi0: subdevice 1 has no range from 0 to 20 mA or 0 to 12 V; --full-scale 12 V: most "
+      "boards give 0 to 10 V at most; use a stage that makes 20 mA of 10 V, and leave out --full-scale");
   EXPECT_EQ(refusal("/dev/comedi0", {.encoder = {{8, 99}}}),
             "/dev/comedi0: subdevice 11 does not take line 99 for its encoder");
 }

@@ -217,6 +217,22 @@ TEST(Control, RefusesWhatCannotDriveABench) {
   EXPECT_TRUE(holds(unreachable.err, "/nowhere/port cannot be opened as a serial port: "));
 }
 
+TEST(Control, ADryRunWarnsOfVoltagesThatHardlyAnyBoardGives) {
+  const Scratch scratch;
+  std::string text(on_bench);
+  text.replace(text.find("proportional: 60 mA"), 19, "proportional: 300 V");
+  text.replace(text.find("settling_time: 0.06 s"), 21,
+               "valve: {zero_command: -100 V, span_command: 100 V, zero_pressure: 0 bar, span_pressure: "
+               "5 bar}, dac: {lowest_command: -100 V, "
+               "largest_command: 100 V}");
+  write_text(scratch / "b.yaml", text);
+  const std::string dry = "control b.yaml --dry-run --device ";
+  EXPECT_TRUE(holds(mckibben(dry + "comedi --port /dev/comedi0", scratch).err,
+                    "warning: the rig's dac gives -100 to 100 V, and most boards -10 to 10 V at most: write "
+                    "dac: {lowest_command: -10 V, largest_command: 10 V}"));
+  EXPECT_TRUE(lacks(mckibben(dry + "serial --port /nowhere", scratch).err, "most boards"));
+}
+
 TEST(Control, WhatEndsBeforeTheFirstTickLeavesNoDataSet) {
   const Scratch scratch;
   std::string dies(on_bench);
