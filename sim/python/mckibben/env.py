@@ -3,6 +3,7 @@
 Gymnasium is not needed. Where it is installed, Env and VectorEnv are its environments, with ids: Track-v0,
 TrackDrawn-v0, whose rigs and targets are drawn, and TrackPair-v0, two muscles against each other.
 """
+import functools
 import numbers
 
 import numpy
@@ -37,6 +38,16 @@ def _mode(given):
 def _no_rendering(mode):
     if mode is not None:
         raise ValueError(f"render_mode = {mode!r}: must be None; nothing is rendered, plot env.unwrapped.history")
+
+
+def _rewarded(step):
+    """A subclass's step, whose reward is that of the history."""
+    @functools.wraps(step)
+    def own(self, *args, **keys):
+        result = step(self, *args, **keys)
+        self.episode.rewarded(result[1])
+        return result
+    return own
 
 
 class Env(Base):
@@ -77,6 +88,11 @@ class Env(Base):
         self.loads_kg = self.task.loads_kg
         self.episode = self.ride = None
         self.ended = False
+
+    def __init_subclass__(cls, **keys):
+        super().__init_subclass__(**keys)
+        if "step" in vars(cls):
+            cls.step = _rewarded(cls.step)
 
     @property
     def history(self):

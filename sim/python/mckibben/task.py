@@ -265,6 +265,10 @@ class Episode:
         self.rows.append((self.tick * self.tick_s, self.wanted[self.tick], self.last, *self.given, reward))
         return self.seen((self.last - before) / self.tick_s), reward, self.over()
 
+    def rewarded(self, reward):
+        """The last tick, by whoever rewards it otherwise."""
+        self.rows[-1] = (*self.rows[-1][:-1], float(reward))
+
     def over(self):
         return self.tick + 1 >= len(self.wanted)
 
