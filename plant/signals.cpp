@@ -26,7 +26,8 @@ bool exists(const Channel& channel, const Rig& rig, const Driven& driven) {
       return driven.pair;
     case Needs::command:
       return driven.pressure[channel.muscle == 2 ? 1 : 0] == GivenPressure::none &&
-             channel.signal->of_commands_in.value_or(rig.command_unit()) == rig.command_unit();
+             (channel.signal->of_commands_in ? *channel.signal->of_commands_in == rig.command_unit()
+                                             : !rig.valve.is_on_off());  // a pressure is asked of it
     case Needs::valve:
       return driven.pressure[channel.muscle == 2 ? 1 : 0] != GivenPressure::muscle;
     case Needs::tank:

@@ -59,6 +59,7 @@ const samples = {
 
 const turns = unitOf.encoder_angle !== undefined;  // a lever's angle is read, or that of two muscles
 const read = turns ? 'encoder_angle' : 'encoder_contraction_ratio';
+const asksPressure = columns.some((key) => key.startsWith('reference_pressure'));  // not of on/off valves
 const thin = 1.6, wide = 5;  // pixels of lines: a wide one is seen beneath another
 const pairTimePlots = [
   {title: 'Joint angle', lines: [['angle', 'true', wide], [read, 'as counted']]},
@@ -89,22 +90,25 @@ const singleTimePlots = [
         [['braid_force', 'braid'], ['friction_force', 'friction of the threads'], ['effects_pull', 'effects']]
   },
 ];
-const timePlots = pair ? pairTimePlots : singleTimePlots;
+const timePlots = (pair ? pairTimePlots : singleTimePlots)
+                      .map((plot) => ({...plot, lines: plot.lines.filter(([key]) => columns.includes(key))}));
+const commanded = asksPressure ? 'reference_pressure' : command.name;
 /** Differences are those of muscle 1 less muscle 2. */
 const pairLoopPlots = [
   {
-    title: 'Difference of commanded pressures over the counted angle',
+    title: `Difference of ${asksPressure ? 'commanded pressures' : 'commands'} over the counted angle`,
     x: read,
-    y: 'reference_pressure_1 - reference_pressure_2'
+    y: `${commanded}_1 - ${commanded}_2`
   },
   {title: 'Difference of pressures over the angle', x: 'angle', y: 'muscle_pressure_1 - muscle_pressure_2'},
   {title: 'Difference of forces over the angle', x: 'angle', y: 'tension_1 - tension_2'},
 ];
 const singleLoopPlots = [
   {
-    title: `Commanded pressure over the counted ${turns ? 'angle' : 'contraction'}`,
+    title: `${asksPressure ? 'Commanded pressure' : command.title} over the counted ${
+        turns ? 'angle' : 'contraction'}`,
     x: read,
-    y: 'reference_pressure'
+    y: commanded
   },
   {title: 'Pressure of the muscle over its contraction', x: 'contraction_ratio', y: 'muscle_pressure'},
   {title: 'Force of the braid over the contraction', x: 'contraction_ratio', y: 'braid_force'},

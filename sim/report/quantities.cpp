@@ -108,8 +108,7 @@ std::vector<Quantity> quantities_of(const run::Recording& recording, const plant
   const auto* rows = &recording.samples;
   std::vector<Quantity> all;
   for (const plant::Channel& channel : plant::channels_of(rig, recording.driven))
-    if (asks_for_pressure(rig) || channel.signal->key != "reference_pressure")
-      all.push_back({channel.key(), [rows, channel](std::size_t k) { return channel.on_page((*rows)[k]); }});
+    all.push_back({channel.key(), [rows, channel](std::size_t k) { return channel.on_page((*rows)[k]); }});
   if (recording.driven.pair) return all;
   const plant::Muscle& muscle = rig.muscle;
   all.push_back({"friction_coefficient", [rows, braid = plant::Braid(muscle), rigid = muscle.cord.absent(),

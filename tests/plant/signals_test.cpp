@@ -45,6 +45,17 @@ TEST(Signals, CommandsAreInWhatTheValveTakes) {
   EXPECT_EQ(in_unit(CommandUnit::V, "currents of 4 mA, 2 s2/mA2"), "commands of 4 V, 2 s2/V2");
 }
 
+TEST(Signals, AValveThatIsOpenOrShutIsAskedForNoPressure) {
+  Rig rig;
+  const auto asks = [&] {
+    return std::ranges::any_of(channels_of(rig, {}),
+                               [](const Channel& one) { return one.key() == "reference_pressure"; });
+  };
+  EXPECT_TRUE(asks());
+  rig.valve.kind = ValveKind::on_off;
+  EXPECT_FALSE(asks());
+}
+
 TEST(Signals, WhatIsGivenHasNothingUpstreamAndALengthHasAForce) {
   const std::string given =
       names_of(recorded_channels({}, {.length = true, .pressure = {GivenPressure::muscle}}));
