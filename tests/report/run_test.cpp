@@ -45,6 +45,24 @@ TEST(Run, SaysWhichControllersKnowTheSimulatedRig) {
   EXPECT_TRUE(lacks(told(), words));
 }
 
+TEST(Run, SaysWhyADrawnRigHasNoResult) {
+  domain::Scenario scenario;
+  scenario.loads_kg = {5.0};
+  run::Comparison comparison;
+  comparison.drawn = {"muscle.rest_radius"};
+  comparison.runs.resize(2);
+  comparison.robustness.resize(2);
+  comparison.robustness[0] = {.load_kg = 5.0, .controller = "pid", .rigs = 8};
+  comparison.robustness[1] = {
+      .load_kg = 7.0, .controller = "pid", .rigs = 8, .no_result = 2, .why = "rig 3: it <stops>"};
+  const auto rows = input::Json::parse(output::json_of(scenario, comparison)).at("robustness").at("rows");
+  EXPECT_EQ(rows[0].at("why_no_result"), "");
+  EXPECT_EQ(rows[1].at("why_no_result"), "rig 3: it <stops>");
+  EXPECT_TRUE(holds(output::table_of(scenario, comparison), "  no result: 7 kg, pid: rig 3: it <stops>\n"));
+  const std::string html = report_html(scenario, comparison);
+  EXPECT_TRUE(holds(html, "<p>No result: ", ": rig 3: it &lt;stops&gt;</p>"));
+}
+
 TEST(Quantities, ACommandThatIsNoPressureIsDrawnAsItIs) {
   plant::Rig rig;
   EXPECT_EQ(loop_over(rig, true).label, "commanded pressure in bar");
