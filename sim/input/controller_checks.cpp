@@ -12,6 +12,7 @@
 #include <sim/input/current_checks.hpp>
 #include <sim/input/file_names.hpp>
 #include <sim/input/quantity.hpp>
+#include <sim/input/rigs.hpp>
 
 namespace mckibben::input {
 namespace {
@@ -83,6 +84,12 @@ class ControllerChecker {
       problems_.error(source_, node.place,
                       fmt::format("rig: its valve is commanded in {}, the scenario's in {}",
                                   name_of(rig.command_unit()), name_of(scenario_.rig.command_unit())));
+    if (problems_.errors() == 0 && rig_json(rig) == rig_json(scenario_.rig))
+      problems_.warning(
+          source_, node.place,
+          fmt::format("rig = {}: this is the simulated rig itself, so {} knows it exactly; to see "
+                      "what a wrong model does, name a rig that differs from it",
+                      node.kind == Node::Kind::scalar ? node.text : "{...}", controller));
     if (const std::string why = no_load(rig); scenario_.rig.pair() == nullptr && !why.empty())
       problems_.error(source_, node.place, "rig: " + why);
   }

@@ -203,28 +203,11 @@ std::string_view usual_unit(std::string_view si_unit) {
   return si_unit;
 }
 
-/// ": for example 5 bar": the number that was written, in the unit that was wanted, if it may be meant; else
-/// what is usual; nothing if neither is known.
+/// ": for example 5 bar": what the number may mean, or else what is usual; nothing if neither is known.
 std::string example_for(std::string_view number, std::string_view si_unit, const Usual& usual) {
-  constexpr double alike = 10.0;
-  const auto text = [](const std::string& example) { return ": for example " + example; };
-  if (const auto written = parse_number(number)) {
-    double value = *written;
-    const bool rad = si_unit == "rad" && std::abs(value) <= std::numbers::pi;  // up to half a turn
-    // Where nothing is usual: steps and offsets are of mm, and what is not small of a small unit.
-    const bool unknown = usual.value == 0.0 && std::isfinite(usual.highest), large = std::abs(value) >= 1.0;
-    const std::string_view unit = rad                                   ? si_unit
-                                  : unknown && si_unit == "m"           ? "mm"
-                                  : unknown && si_unit == "Pa" && large ? "mbar"
-                                                                        : usual_unit(si_unit);
-    convert({&value, 1}, unit, si_unit);
-    const double ratio = value / usual.value;
-    if (value >= usual.lowest && value <= usual.highest &&
-        (usual.value == 0.0 || (ratio > 1.0 / alike && ratio < alike)))
-      return text(fmt::format("{} {}", number, unit) +
-                  (rad ? fmt::format(", which is {:.3g} deg", value / plant::degree_rad) : ""));
-  }
-  return usual.value == 0.0 ? "" : text(usual_quantity(usual.value, si_unit));
+  const std::string meant = meant_quantity(number, si_unit, usual);
+  if (meant.empty() && usual.value == 0.0) return "";
+  return ": for example " + (meant.empty() ? usual_quantity(usual.value, si_unit) : meant);
 }
 
 /// Walks through a unit's definition down to base units.
@@ -287,6 +270,27 @@ std::optional<law::UnitSize> unit_size(std::string_view unit) {
   return found.size;
 }
 
+std::string meant_quantity(std::string_view text, std::string_view si_unit, const Usual& usual) {
+  const auto written = parse_number(split(text).number);
+  if (!written || si_unit == "1") return "";
+  const bool rad = si_unit == "rad" && std::abs(*written) <= std::numbers::pi;  // up to half a turn
+  // Where nothing is usual: steps and offsets are of mm, and what is not small of a small unit.
+  const bool unknown = usual.value == 0.0 && std::isfinite(usual.highest), large = std::abs(*written) >= 1.0;
+  const std::string_view unit = rad                                   ? si_unit
+                                : unknown && si_unit == "m"           ? "mm"
+                                : unknown && si_unit == "Pa" && large ? "mbar"
+                                                                      : usual_unit(si_unit);
+  for (const std::string_view one : {unit, si_unit}) {
+    double value = *written;
+    convert({&value, 1}, one, si_unit);
+    if (value >= usual.lowest && value <= usual.highest &&
+        (usual.value == 0.0 || std::abs(std::log10(value / usual.value)) < 1.0))
+      return fmt::format("{} {}", split(text).number, one) +
+             (rad ? fmt::format(", which is {:.3g} deg", value / plant::degree_rad) : "");
+  }
+  return "";
+}
+
 double read_quantity(std::string_view text, std::string_view si_unit, const Usual& usual) {
   const std::string_view whole = trimmed(text);
   if (whole.size() > longest_quantity)
@@ -299,7 +303,6 @@ double read_quantity(std::string_view text, std::string_view si_unit, const Usua
     throw BadQuantity(why_no_number(whole));
   const auto value = parse_number(number);
   if (!value) throw BadQuantity(why_no_number(number));
-
   if (si_unit == "1") {
     if (unit.empty()) return *value;
     if (unit == "%") return *value / 100.0;

@@ -30,6 +30,9 @@ struct Usual {
 /// threads. Throws BadQuantity; std::runtime_error if the unit database is not installed.
 double read_quantity(std::string_view text, std::string_view si_unit, const Usual& usual = {});
 
+/// "8 bar" of "8" or "8 Pa": the number in the unit in which it is near to what is usual; empty if in none.
+std::string meant_quantity(std::string_view text, std::string_view si_unit, const Usual& usual);
+
 /// "6 mm ± 0.1 mm", taken apart at the sign, which may also be "+-". `spread` is empty where there is none.
 struct WithSpread {
   std::string_view value;

@@ -186,9 +186,11 @@ void ValueReader::quantity(std::string_view key, const Node& node, double& value
       value = read;
       return spread(key, said.spread, read, limits.unit);
     }
-    bad(node, fmt::format("{} = {} is out of range: {} to {} ({})", key, shortened(node.text),
+    const std::string meant = usual.value == 0.0 ? "" : meant_quantity(said.value, limits.unit, usual);
+    bad(node, fmt::format("{} = {} is out of range: {} to {} ({}){}", key, shortened(node.text),
                           show_limit(limits.lowest, limits.unit, said.value),
-                          show_limit(limits.highest, limits.unit, said.value), limits.meaning));
+                          show_limit(limits.highest, limits.unit, said.value), limits.meaning,
+                          meant.empty() ? "" : fmt::format("; is {} meant?", meant)));
   } catch (const BadQuantity& error) {
     bad(node, fmt::format("{} = {} ({})", key, error.what(), limits.meaning));
   }

@@ -48,5 +48,27 @@ TEST(OpenLoopScenario, CountsTheCalibrationAmongItsInputsOnce) {
   EXPECT_EQ(scenario.inputs.front().name, "test.yaml");
 }
 
+TEST(ModelScenario, IsToldWhereTheModelIsTheSimulatedRigItself) {
+  const auto warnings_of = [](const std::string& rig, const std::string& model) {
+    std::vector<Problem> warnings;
+    read_scenario(Source("test.yaml",
+                         "schema: mckibben-scenario/1\nrig: " + rig +
+                             "\nloads: [16.138 kg]\nduration: 1 s\n"
+                             "target: {kind: points, points: [{at: 0 s, to: 0.05}]}\n"
+                             "controllers:\n  - {kind: model_inverse, rig: " +
+                             model + "}\n",
+                         MCKIBBEN_TEST_DATA),
+                  warnings);
+    return warnings.empty() ? std::string() : to_text(warnings.front());
+  };
+  EXPECT_EQ(warnings_of("{base: thesis, muscle: {rest_radius: 8 mm}}", "thesis"), "");
+  for (const char* rig : {"thesis", "{base: thesis, muscle: {rest_length: 300 mm}}"})
+    EXPECT_NE(warnings_of(rig, "thesis")
+                  .find("test.yaml:7:32: warning: rig = thesis: this is the simulated rig itself, so "
+                        "model_inverse knows it exactly"),
+              std::string::npos)
+        << warnings_of(rig, "thesis");
+}
+
 }  // namespace
 }  // namespace mckibben::input

@@ -136,6 +136,10 @@ TEST(Quantity, SayWhatIsWrong) {
   EXPECT_EQ(of_nothing_usual("0.02", "s", 10.0), "0.02 has no unit; it is measured in s: for example 0.02 s");
   EXPECT_EQ(of_radius("8"), "8 has no unit; it is measured in m: for example 7.5 mm");
   EXPECT_EQ(of_radius("0.008"), "0.008 has no unit; it is measured in m: for example 0.008 m");
+  const Usual supply{.value = 6e5, .lowest = 1e3, .highest = 2e6};
+  EXPECT_EQ(meant_quantity("8 Pa", "Pa", supply), "8 bar");
+  EXPECT_EQ(meant_quantity("800000", "Pa", supply), "800000 Pa");
+  EXPECT_EQ(meant_quantity("800 mbar", "Pa", supply), "") << "neither 800 bar nor 800 Pa";
   EXPECT_EQ(of_radius("0.09"), "0.09 has no unit; it is measured in m: for example 7.5 mm");
   EXPECT_EQ(of_radius("0.008 N"), "0.008 N: N is the wrong kind of unit; wanted is m: for example 7.5 mm");
   EXPECT_EQ(problem_of("1.3 s", "1"), "1.3 s must be a bare number, without a unit: for example 1.3");
