@@ -134,15 +134,23 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
     if (off > std::log(unit.near)) continue;
     return Finding{
         "load", runs_of(list),
-        fmt::format("load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that "
-                    "factor, but for {:.0f} %; these look like {}, here load: {:.6g} kg; or the rig is "
-                    "another muscle: "
-                    "are base, rest_radius, rest_length and braid_angle right?",
-                    domain::write_kg(list.front().label_kg), list.front().seems_kg,
-                    100.0 * std::expm1(spread), unit.says, unit.ratio * list.front().label_kg),
+        fmt::format(
+            "load = {} kg, but it moves like {:.3g} kg, and all loads are off by about that factor, but "
+            "for {:.0f} %; these look like {}, here load: {:.6g} kg; or the rig is another muscle: are "
+            "base, rest_radius, rest_length and braid_angle right?",
+            domain::write_kg(list.front().label_kg), list.front().seems_kg, 100.0 * std::expm1(spread),
+            unit.says, unit.ratio * list.front().label_kg),
         off < std::log(unit.sure) ? Severity::refused : Severity::doubtful};
   }
-  return std::nullopt;
+  constexpr double another = 1.6, alike = 1.1;  // a muscle; what all loads are off by
+  if (!several || spread > std::log(alike) || std::abs(std::log(ratio)) < std::log(another))
+    return std::nullopt;
+  return Finding{
+      .message = fmt::format("all loads move like {:.3g} times what is written, but for {:.0f} %: is the rig "
+                             "this muscle? rest_radius times {:.3g} would fit; base, rest_length and "
+                             "braid_angle decide, too",
+                             ratio, 100.0 * std::expm1(spread), 1.0 / std::sqrt(ratio)),
+      .severity = Severity::doubtful};  // of no load: a diagnosis would estimate them all
 }
 
 /// Whether the loads of all other runs are off as well, by half as much or more: a zero elsewhere does that,

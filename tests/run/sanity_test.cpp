@@ -245,6 +245,15 @@ TEST(Sanity, AllLoadsInAnotherUnitAreSaid) {
   EXPECT_FALSE(expect(sound(), 1.0 / 2.20462, "these look like kg that are written in lb: write kg"));
 }
 
+TEST(Sanity, AMuscleThatLiftsQuiteOtherLoadsIsAskedAbout) {
+  auto data = sound();
+  for (const auto& [factor, fits] : {std::pair{1.3, "times 0.7"}, std::pair{0.77, "times 1."}}) {
+    data.rig.muscle.rest_radius_m = factor * plant::Rig{}.muscle.rest_radius_m;
+    EXPECT_TRUE(holds(says(data), "dataset.yaml: warning: all loads move like ",
+                      std::string("is the rig this muscle? rest_radius ") + fits));
+  }
+}
+
 TEST(Sanity, ALoadThatIsNeverLiftedIsSaid) {
   auto data = measured_on({}, {11.138, 16.138, 111.38});
   const auto list = said(data);
