@@ -34,6 +34,9 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
                    const std::vector<const UnknownTable*>& tables, const Heading& heading,
                    const KnownRig& rig);
 
+/// Says of zeros that were read without pressure where they differ between the tables, of all maps together.
+void compare_zeros(Recognised& all);
+
 /// What is to be done with two columns of a quantity; empty where one of them is the right one.
 std::string_view of_two(const domain::Quantity& quantity, bool duties);
 

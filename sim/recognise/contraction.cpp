@@ -1,7 +1,6 @@
 // Sign and zero of a contraction; see columns.hpp.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -36,23 +35,10 @@ double scatter_alone(const Readings& drives, const Readings& readings) {
   return widest;
 }
 
-/// By how much the readings of single tables differ where the drive is lowest; 0 if by no more than a step.
-double apart(const Readings& drives, const Readings& readings) {
-  double low = std::numeric_limits<double>::infinity(), high = -low, step = 0.0;
-  for (std::size_t i = 0; i < drives.values.size(); ++i) {
-    const double zero = together({drives.values[i]}, {readings.values[i]}).at_least_drive;
-    low = std::min(low, zero);
-    high = std::max(high, zero);
-    step = std::max(step, data::step_of(*readings.values[i]));
-  }
-  const Range& range = readings.range;
-  return high - low > std::max(step, zeros_apart * (range.high - range.low)) ? high - low : 0.0;
-}
-
 /// Zero of a contraction that moves along with what drives the muscle; none: 0.
 std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess& drive, const Together& found,
-                              double alone, double apart, const Range& range, double lowest_drive,
-                              bool is_length, bool empties, const KnownRig& rig) {
+                              double alone, const Range& range, double lowest_drive, bool is_length,
+                              bool empties, const KnownRig& rig) {
   const std::string& unit = contraction.unit.value;
   const double span = range.high - range.low;
   const bool falls = found.correlation < 0.0, ratio = unit == "1" || unit == "%";
@@ -80,17 +66,10 @@ std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess&
         found.scatter, unit, rounded(at_rest)));
   const std::string reason =
       fmt::format("its median where {} is lowest, {:.4g}", drive.column.value, lowest_drive);
-  if (empties) {
-    std::string load = "; if a load hangs there, it is the zero under it";
-    if (apart > 0.0)
-      load = fmt::format(
-          "; it differs by {:.3g} {} between the tables, as loads stretch the muscle: joint: "
-          "{{reading_offset: 0 mm ± 1 mm}} of the rig lets diagnose move it",
-          apart, unit);
-    return Told{rounded(found.at_least_drive),
-                reason + ": no pressure is left in the muscle there" + (rig.holds_a_length ? "" : load),
-                !rig.holds_a_length && apart > 0.0};
-  }
+  if (empties)
+    return Told{.value = rounded(found.at_least_drive),
+                .reason = reason + ": no pressure is left in the muscle there",
+                .was_read = !rig.holds_a_length};
   return left_open(
       fmt::format("what it reads at the muscle's rest length; {} is {}: it is that if no pressure is left "
                   "in the muscle there and no load stretches it",
@@ -141,14 +120,58 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
     contraction.factor = Told{"-1", "it falls as the muscle contracts, " + along};
   const double at_rest = falls ? range.high : range.low;
   if (!scale_is_open)
-    contraction.zero = zero_told(contraction, drive, found, scatter_alone(*drives, *readings),
-                                 apart(*drives, *readings), range, drives->range.low, heading.is_length,
-                                 gauge != nullptr && reads_nothing(*gauge, tables), rig);
+    contraction.zero =
+        zero_told(contraction, drive, found, scatter_alone(*drives, *readings), range, drives->range.low,
+                  heading.is_length, gauge != nullptr && reads_nothing(*gauge, tables), rig);
   else if (std::abs(at_rest) > near_rest_share * (range.high - range.low))
     contraction.zero = left_open(fmt::format(
         "what it reads with the muscle at its rest length, before factor is multiplied; its readings "
         "go from {:.4g} to {:.4g}, and {:.4g} is nearest to it",
         range.low, range.high, at_rest));
+}
+
+void compare_zeros(Recognised& all) {
+  constexpr std::size_t most_named = 6;
+  struct Zero {
+    double value;
+    std::string says;
+  };
+  std::vector<Zero> zeros;
+  std::vector<Told*> told;
+  double least_apart = 0.0;
+  for (std::size_t i = 0; i < all.runs.size(); ++i) {
+    MapGuess& map = all.maps[all.runs[i].map];
+    const auto contraction = std::ranges::find_if(
+        map.columns, [](const ColumnGuess& one) { return one.zero && one.zero->was_read; });
+    const ColumnGuess* drive = drive_of(map);
+    if (contraction == map.columns.end() || drive == nullptr) continue;
+    const Values *drives = column_of(all.tables[i], drive->column.value),
+                 *readings = column_of(all.tables[i], contraction->column.value);
+    if (drives == nullptr || readings == nullptr) continue;
+    const double zero = together({drives}, {readings}).at_least_drive;
+    zeros.push_back({zero, fmt::format("{:.6g} {} ({})", zero, contraction->unit.value, all.runs[i].id)});
+    told.push_back(&*contraction->zero);
+    const Range range = range_of(*readings);
+    least_apart = std::max({least_apart, data::step_of(*readings), zeros_apart * (range.high - range.low)});
+  }
+  if (zeros.empty()) return;
+  const auto [low, high] = std::ranges::minmax_element(zeros, {}, &Zero::value);
+  std::string says = "; if a load hangs there, it is the zero under it";
+  const bool differ = high->value - low->value > least_apart;
+  if (differ) {
+    std::string list;
+    for (const Zero& one : zeros) list += (list.empty() ? "" : ", ") + one.says;
+    says = fmt::format(
+        "; it differs between the tables, {}, as loads stretch the muscle: joint: {{reading_offset: 0 mm ± "
+        "1 mm}} of the rig lets diagnose move it",
+        zeros.size() > most_named ? fmt::format("from {} to {}", low->says, high->says) : list);
+  }
+  std::ranges::sort(told);
+  told.erase(std::ranges::unique(told).begin(), told.end());
+  for (Told* one : told) {
+    one->reason += says;
+    one->doubtful = differ;
+  }
 }
 
 double step_of_lengths(const ColumnGuess& contraction, const std::vector<UnknownTable>& tables) {

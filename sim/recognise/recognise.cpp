@@ -70,6 +70,7 @@ class Recogniser {
     const bool rig_is_known = rig_is_known_;
     maps(rig_is_known);
     runs();
+    compare_zeros(all_);
     clocks();
     gaps();
     start();

@@ -19,6 +19,7 @@ namespace mckibben::recognise {
 struct Told {
   std::string value, reason;
   bool doubtful = false;  ///< a zero that loads seem to have moved
+  bool was_read = false;  ///< a zero: the reading without pressure, load or not
   bool open() const { return value == domain::fill_in; }
 };
 inline Told left_open(std::string reason) {
