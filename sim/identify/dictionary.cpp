@@ -119,6 +119,25 @@ void keep_readable(const domain::Dataset& data, diagnose::Parameter& p) {
 
 constexpr std::size_t wave_pairs = 14, rub_places = 8;
 
+/// What a coordinate of a point moves.
+template <class P>
+auto& at(P& point, const Coordinate& one) {
+  const auto of = static_cast<Eigen::Index>(one.of);
+  switch (one.kind) {
+    case Kind::size:
+      return point.effects[one.of].size;
+    case Kind::shape:
+      return point.effects[one.of].shapes[one.which];
+    case Kind::term:
+      return point.coefficients[of];
+    case Kind::stretch:
+      return point.stretches[of];
+    case Kind::parameter:
+      break;
+  }
+  return point.z[of];
+}
+
 }  // namespace
 
 void Entry::put(plant::Rig& rig, double size, const std::vector<double>& with) const {
@@ -229,36 +248,13 @@ std::vector<Coordinate> Dictionary::coordinates(const Point& point) const {
 Eigen::VectorXd Dictionary::vector(const Point& point) const {
   const auto list = coordinates(point);
   Eigen::VectorXd v(static_cast<Eigen::Index>(list.size()));
-  for (std::size_t j = 0; j < list.size(); ++j) {
-    const std::size_t of = list[j].of;
-    double& value = v[static_cast<Eigen::Index>(j)];
-    switch (list[j].kind) {
-      case Kind::parameter:
-        value = point.z[static_cast<Eigen::Index>(of)];
-        break;
-      case Kind::size:
-        value = point.effects[of].size;
-        break;
-      case Kind::shape:
-        value = point.effects[of].shapes[list[j].which];
-        break;
-      case Kind::term:
-        value = point.coefficients[static_cast<Eigen::Index>(of)];
-        break;
-      case Kind::stretch:
-        value = point.stretches[static_cast<Eigen::Index>(of)];
-        break;
-    }
-  }
+  for (std::size_t j = 0; j < list.size(); ++j) v[static_cast<Eigen::Index>(j)] = at(point, list[j]);
   return v;
 }
 
 Added Dictionary::clipped(Added added) const {
-  const Entry& entry = entries[added.entry];
-  added.size = std::clamp(added.size, entry.lowest, entry.highest);
-  for (std::size_t i = 0; i < added.shapes.size(); ++i)
-    added.shapes[i] = std::clamp(added.shapes[i], -entry.shapes[i].furthest, entry.shapes[i].furthest);
-  return added;
+  const Point alone{.effects = {std::move(added)}};
+  return moved(alone, vector(alone)).effects.front();
 }
 
 Ends Dictionary::ends(const Point& point) const {
@@ -287,27 +283,7 @@ Point Dictionary::moved(const Point& point, const Eigen::VectorXd& to) const {
   const auto list = coordinates(point);
   const Ends ranges = ends(point);
   const Eigen::VectorXd v = to.cwiseMax(ranges.lowest).cwiseMin(ranges.highest);
-  for (std::size_t j = 0; j < list.size(); ++j) {
-    const std::size_t of = list[j].of;
-    const double value = v[static_cast<Eigen::Index>(j)];
-    switch (list[j].kind) {
-      case Kind::parameter:
-        p.z[static_cast<Eigen::Index>(of)] = value;
-        break;
-      case Kind::size:
-        p.effects[of].size = value;
-        break;
-      case Kind::shape:
-        p.effects[of].shapes[list[j].which] = value;
-        break;
-      case Kind::term:
-        p.coefficients[static_cast<Eigen::Index>(of)] = value;
-        break;
-      case Kind::stretch:
-        p.stretches[static_cast<Eigen::Index>(of)] = value;
-        break;
-    }
-  }
+  for (std::size_t j = 0; j < list.size(); ++j) at(p, list[j]) = v[static_cast<Eigen::Index>(j)];
   return p;
 }
 
