@@ -114,48 +114,48 @@ double Search::gain_of_terms(const Model& base) const {
   return best;
 }
 
+/// Other laws of the effects found, from the points that each is tried at in the place of one found.
+void Search::try_laws(const Instead& instead) {
+  const Point found = here_->point;
+  for (std::size_t i = 0; i < found.effects.size(); ++i) {
+    const Entry& law = dictionary_.entries[found.effects[i].entry];
+    for (std::size_t k = 0; law.effect && k < dictionary_.entries.size(); ++k)
+      if (dictionary_.entries[k].effect && dictionary_.entries[k].name == law.name)
+        for (Point& point : instead(found.effects[i], k, found.without(i))) take(refined(std::move(point)));
+  }
+}
+
 /// A law of an effect that is not the rig's may explain all with numbers that the sheet forbids, where
 /// another law of the same effect needs none: those from the rig as described, from every shape, as their
 /// valleys are apart.
 void Search::try_other_laws() {
-  const Point found = here_->point;
-  for (std::size_t i = 0; i < found.effects.size(); ++i) {
-    const auto& law = dictionary_.entries[found.effects[i].entry].effect;
-    for (std::size_t k = 0; law && k < dictionary_.entries.size(); ++k) {
-      const Entry& other = dictionary_.entries[k];
-      if (!other.effect || other.effect->effect != law->effect || other.effect->side != law->side ||
-          other.effect->variant == law->variant)
-        continue;
-      for (const auto& shapes : other.begin) {
-        Point point = found.without(i).with(dictionary_.clipped({k, 1.0, shapes}));
-        point.z.setZero();
-        Model m = refined(std::move(point));
-        if (m.score > here_->score) here_ = std::move(m);
-      }
-    }
-  }
+  try_laws([&](const Added& found, std::size_t entry, Point rest) {
+    std::vector<Point> points;
+    const Entry& other = dictionary_.entries[entry];
+    if (other.effect->variant == dictionary_.entries[found.entry].effect->variant) return points;
+    rest.z.setZero();
+    for (const auto& shapes : other.begin)
+      points.push_back(rest.with(dictionary_.clipped({entry, 1.0, shapes})));
+    return points;
+  });
 }
 
 /// A law of two terms may have been found where one of them is enough, as its range of shapes is wide:
 /// without the term, from where the law stands.
 void Search::try_simpler_laws() {
-  const Point found = here_->point;
-  for (std::size_t i = 0; i < found.effects.size(); ++i) {
-    const Entry& law = dictionary_.entries[found.effects[i].entry];
-    for (std::size_t k = 0; law.effect && k < dictionary_.entries.size(); ++k) {
-      const Entry& other = dictionary_.entries[k];
-      if (other.name != law.name || !other.effect || other.effect->amplitude != law.effect->amplitude ||
-          other.shapes.size() >= law.shapes.size())
-        continue;
-      Added simpler{k, found.effects[i].size, std::vector<double>(other.shapes.size(), 0.0)};
-      for (std::size_t s = 0; s < other.shapes.size(); ++s)
-        for (std::size_t j = 0; j < law.shapes.size(); ++j)
-          if (law.shapes[j].path == other.shapes[s].path)
-            simpler.shapes[s] = other.shapes[s].z(law.shapes[j].value(found.effects[i].shapes[j]));
-      Model m = refined(found.without(i).with(dictionary_.clipped(std::move(simpler))));
-      if (m.score > here_->score) here_ = std::move(m);
-    }
-  }
+  try_laws([&](const Added& found, std::size_t entry, const Point& rest) {
+    std::vector<Point> points;
+    const Entry &law = dictionary_.entries[found.entry], &other = dictionary_.entries[entry];
+    if (other.effect->amplitude != law.effect->amplitude || other.shapes.size() >= law.shapes.size())
+      return points;
+    Added simpler{entry, found.size, std::vector<double>(other.shapes.size(), 0.0)};
+    for (std::size_t s = 0; s < other.shapes.size(); ++s)
+      for (std::size_t j = 0; j < law.shapes.size(); ++j)
+        if (law.shapes[j].path == other.shapes[s].path)
+          simpler.shapes[s] = other.shapes[s].z(law.shapes[j].value(found.shapes[j]));
+    points.push_back(rest.with(dictionary_.clipped(std::move(simpler))));
+    return points;
+  });
 }
 
 /// Where the bench is wrong, the rig may be as described: effects, too, may make up for what the fit on the
@@ -194,14 +194,11 @@ void Search::try_terms() {
               best = std::move(few);
       }
     }
-  const auto take = [&](const Few& few) {
-    Model m = refined(started(few.point, few.term_N));
-    if (!(m.score > here_->score)) return;
-    here_ = std::move(m);
-    prune();  // names and bent parameters may have stood for it
+  const auto descend = [&](const Few& few) {
+    if (take(refined(few.point, few.term_N))) prune();  // names and bent parameters may have stood for it
   };
-  if (one) take(*one);
-  if (several && several->value > one->value && !here_->error.explains()) take(*several);
+  if (one) descend(*one);
+  if (several && several->value > one->value && !here_->error.explains()) descend(*several);
 }
 
 void Search::begin() {
@@ -264,10 +261,7 @@ void Search::go_on() {
       Model base(problem_, q, here_->error);
       base.look();
       if (!base.read.allFinite()) continue;
-      if (here_->error.explains()) {  // the same, on this side of the valley
-        Model m = refined(std::move(q));
-        if (m.score > here_->score) here_ = std::move(m);
-      }
+      if (here_->error.explains()) take(refined(std::move(q)));  // the same, on this side of the valley
       look_from(base, true, false);
     } else if (!look_from(*here_, false, names.empty())) {
       break;
@@ -279,7 +273,7 @@ void Search::go_on() {
   last.settle({.enough = to_the_end});
   last.evidence();
   enter(last);
-  if (last.score > here_->score) here_ = std::move(last);
+  take(std::move(last));
   try_simpler_laws();
   stage_ = 2;
   describe_bench();

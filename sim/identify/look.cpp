@@ -245,9 +245,7 @@ bool Search::look_from(Model base, bool far, bool first) {
     const Names names = dictionary_.names(best.point);
     if (hills_.insert(names).second) {
       seen.insert(names);
-      Model m = refined(best.point);
-      if (m.score > here_->score) {
-        here_ = std::move(m);
+      if (take(refined(best.point))) {
         prune();
         return true;
       }
@@ -301,13 +299,9 @@ bool Search::look_from(Model base, bool far, bool first) {
     if (next->here.evidence < before.evidence + worth) next->here.hoped = next->here.evidence;  // in vain
     tell(*next);
   }
-  if (!begun_ones.empty()) {
-    Model best = refined(std::move(best_by(&Model::Here::evidence)->model));
-    if (best.score > here_->score) {
-      here_ = std::move(best);
-      prune();
-      return true;
-    }
+  if (!begun_ones.empty() && take(refined(std::move(best_by(&Model::Here::evidence)->model)))) {
+    prune();
+    return true;
   }
   for (const Part& part : parts) {
     std::vector<Start> rivals = of_other_sides(base, part);
@@ -353,8 +347,7 @@ void Search::try_rivals(const Model& base, const std::vector<Start>& starts, con
     if (!tried.insert(names).second) continue;
     auto [point, missed] = resized(base, start.point, part.rest);
     if (missed > (1.0 - alike) * square) continue;
-    Model m = refined(std::move(point));
-    if (m.score > here_->score) here_ = std::move(m);
+    take(refined(std::move(point)));
   }
 }
 
@@ -372,12 +365,8 @@ void Search::prune() {
         if (described) from.z.setZero();
         std::vector<double> z(from.z.begin(), from.z.end());
         if (!begun_.emplace(dictionary_.names(from), z).second) continue;
-        Model m = refined(from, here_->term_N);
-        if (m.score > here_->score) {
-          here_ = std::move(m);
-          pruned = true;
-          break;
-        }
+        pruned = take(refined(from, here_->term_N));
+        if (pruned) break;
       }
       if (pruned) break;
     }

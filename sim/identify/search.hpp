@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -67,6 +68,12 @@ class Search {
   }
   double enter(Model& model, bool described = false);
   double best_score() const;
+  /// Goes on from a model if it is better; whether it is.
+  bool take(Model model) {
+    if (!(model.score > here_->score)) return false;
+    here_ = std::move(model);
+    return true;
+  }
   Model started(Point point, double term_N = 1.0) const;
   /// After one round of the descent to the most probable numbers.
   Model begun(Point point) const;
@@ -104,6 +111,8 @@ class Search {
   void prune();
   std::vector<Start> of_other_sides(const Model& base, const Part& part) const;
   void try_rivals(const Model& base, const std::vector<Start>& starts, const Part& part);
+  using Instead = std::function<std::vector<Point>(const Added& found, std::size_t entry, Point rest)>;
+  void try_laws(const Instead& instead);
   void try_other_laws();
   void try_simpler_laws();
   void describe_bench();
