@@ -38,8 +38,7 @@ void Model::descend(const Effort& effort) {
   for (int round = 0; round < effort.rounds; ++round) {
     fit_error(round == 0 ? std::vector{1.0, 0.5} : std::vector{0.5},
               far ? std::vector<std::size_t>{Error::model_sd} : std::vector<std::size_t>{});
-    const Grams now = error.grams(residual(), slopes);
-    Quadratic quadratic = this->quadratic(now);
+    Quadratic quadratic = this->quadratic(error.grams(residual(), slopes).sum());
     const double promised = quadratic.promised(), before = cost(read, point);
     if (far && promised < 1.0) {
       far = false;
@@ -100,7 +99,7 @@ void Model::descend(const Effort& effort) {
       else if (gained > 0.5 * wanted || quadratic.longest() > 1.01 * reach)
         reach = 3.0 * std::max(moved.norm(), 0.3 * reach);
       if (gained < 0.3 * wanted) break;
-      quadratic = this->quadratic(error.grams(residual(), slopes));
+      quadratic = this->quadratic(error.grams(residual(), slopes).sum());
       if (quadratic.promised() < effort.enough) break;
     }
     if (before - here < effort.enough) {

@@ -151,7 +151,7 @@ Model::Here Model::here() const {
     return log_prior() +
            0.5 * static_cast<double>(slopes.cols() - left.size()) * std::log(2.0 * std::numbers::pi) -
            0.5 * (at.log_det() + gram(0, 0)) - low.matrixLLT().diagonal().array().log().sum() +
-           (stepped ? quadratic(at).promised() : 0.0);
+           (stepped ? quadratic(gram).promised() : 0.0);
   };
   const Error as_it_stands = begun.fitted_anew(left, Eigen::MatrixXd(left.size(), 0), Eigen::VectorXd());
   const Error after_a_step = begun.fitted_anew(left, slopes, of_prior);
@@ -170,9 +170,9 @@ double Model::cost(const Eigen::VectorXd& would_read, const Point& at) const {
   return 0.5 * grams_there.sum()(0, 0) - log_prior_of(problem->dictionary, at, term_N);
 }
 
-Quadratic Model::quadratic(const Grams& at) const {
+Quadratic Model::quadratic(const Eigen::MatrixXd& gram) const {
   const Dictionary& dictionary = problem->dictionary;
-  return {at.sum(), variance().cwiseInverse(), dictionary.vector(point), dictionary.ends(point)};
+  return {gram, variance().cwiseInverse(), dictionary.vector(point), dictionary.ends(point)};
 }
 
 double Model::evidence() {
@@ -195,7 +195,7 @@ double Model::evidence() {
   double value = log_prior() + error.log_scales() -
                  0.5 * (static_cast<double>(read.size()) * std::log(2.0 * std::numbers::pi) +
                         grams.log_det() + gram(0, 0)) +
-                 (k > 0 ? quadratic(grams).promised() : 0.0) +
+                 (k > 0 ? quadratic(gram).promised() : 0.0) +
                  0.5 * static_cast<double>(k) * std::log(2.0 * std::numbers::pi);
   if (k > 0) value -= low.matrixLLT().diagonal().array().log().sum();
   Index j = 0;

@@ -85,7 +85,7 @@ class Model {
  private:
   double cost(const Eigen::VectorXd& would_read, const Point& at) const;
   /// As the error sees it.
-  Quadratic quadratic(const Grams& at) const;
+  Quadratic quadratic(const Eigen::MatrixXd& gram) const;
   /// Simulates numbers of runs, which are not straight, where they are most probable; whether any has moved.
   bool place();
   /// What the loads of all runs have in common is the rig's offset as well: the readings are the same, and
