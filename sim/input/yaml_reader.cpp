@@ -32,12 +32,6 @@ std::optional<T> parse_integer(const Node& node) {
   return value;
 }
 
-std::string integer_message(std::string_view key, const Node& node, auto lowest, auto highest,
-                            std::string_view meaning) {
-  return fmt::format("{} = {} must be a whole number from {} to {}{} ({})", key, shortened(node.text), lowest,
-                     highest, node.quoted ? ", without quotes" : "", meaning);
-}
-
 /// As a whole word.
 bool names_key(std::string_view message, std::string_view key) {
   const auto is_part = [&](std::size_t at) {
@@ -196,25 +190,21 @@ void ValueReader::quantity(std::string_view key, const Node& node, double& value
   }
 }
 
-void ValueReader::signed_integer(std::string_view key, const Node& node, std::int64_t& value,
-                                 std::int64_t lowest, std::int64_t highest, std::string_view meaning) {
+template <class T>
+void ValueReader::integer(std::string_view key, const Node& node, T& value, T lowest, T highest,
+                          std::string_view meaning) {
   if (!is_scalar(key, node, "a whole number")) return;
-  const auto read = parse_integer<std::int64_t>(node);
+  const auto read = parse_integer<T>(node);
   if (read && *read >= lowest && *read <= highest)
     value = *read;
   else
-    bad(node, integer_message(key, node, lowest, highest, meaning));
+    bad(node, fmt::format("{} = {} must be a whole number from {} to {}{} ({})", key, shortened(node.text),
+                          lowest, highest, node.quoted ? ", without quotes" : "", meaning));
 }
-
-void ValueReader::unsigned_integer(std::string_view key, const Node& node, std::uint64_t& value,
-                                   std::uint64_t lowest, std::uint64_t highest, std::string_view meaning) {
-  if (!is_scalar(key, node, "a whole number")) return;
-  const auto read = parse_integer<std::uint64_t>(node);
-  if (read && *read >= lowest && *read <= highest)
-    value = *read;
-  else
-    bad(node, integer_message(key, node, lowest, highest, meaning));
-}
+template void ValueReader::integer(std::string_view, const Node&, std::int64_t&, std::int64_t, std::int64_t,
+                                   std::string_view);
+template void ValueReader::integer(std::string_view, const Node&, std::uint64_t&, std::uint64_t,
+                                   std::uint64_t, std::string_view);
 
 void ValueReader::boolean(std::string_view key, const Node& node, bool& value) {
   if (!is_scalar(key, node, "true or false")) return;

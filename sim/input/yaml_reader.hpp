@@ -104,10 +104,10 @@ class ValueReader {
 
  protected:
   void quantity(std::string_view key, const Node& node, double& value, const Limits& limits);
-  void signed_integer(std::string_view key, const Node& node, std::int64_t& value, std::int64_t lowest,
-                      std::int64_t highest, std::string_view meaning);
-  void unsigned_integer(std::string_view key, const Node& node, std::uint64_t& value, std::uint64_t lowest,
-                        std::uint64_t highest, std::string_view meaning);
+  /// Of the widest integers: signed, unsigned.
+  template <class T>
+  void integer(std::string_view key, const Node& node, T& value, T lowest, T highest,
+               std::string_view meaning);
   void boolean(std::string_view key, const Node& node, bool& value);
   void text(std::string_view key, const Node& node, std::string& value);
   void height(std::string_view key, const Node& node, controllers::Height& value);
@@ -187,15 +187,10 @@ class StructReader : public ValueReader {
                   std::type_identity_t<T> highest, std::string_view meaning) {
     const Node* node = take(key);
     if (node == nullptr) return;
-    if constexpr (std::is_signed_v<T>) {
-      std::int64_t wide = value;
-      signed_integer(key, *node, wide, lowest, highest, meaning);
-      value = static_cast<T>(wide);
-    } else {
-      std::uint64_t wide = value;
-      unsigned_integer(key, *node, wide, lowest, highest, meaning);
-      value = static_cast<T>(wide);
-    }
+    using Wide = std::conditional_t<std::is_signed_v<T>, std::int64_t, std::uint64_t>;
+    Wide wide = value;
+    integer<Wide>(key, *node, wide, lowest, highest, meaning);
+    value = static_cast<T>(wide);
   }
 
   /// Everything without unit and range. Of a rig all that follows has its unit of commands.
