@@ -67,8 +67,7 @@ controllers::Calibration read_calibration(const std::filesystem::path& path, std
     controllers::RelaxationModel::fields(calibration.relaxation, relaxation);
     check_range(file, calibration.range, problems);
   }
-  problems.raise();
-  inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
+  problems.raise(inputs);
   return calibration;
 }
 

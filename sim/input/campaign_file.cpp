@@ -169,13 +169,8 @@ Campaign read_campaign(Source source, std::vector<Problem>* warnings) {
     check_currents(file, campaign, problems);
     check_repeats(file, campaign, problems);
   }
-  problems.raise();
-  if (warnings != nullptr) {
-    const std::vector<Problem> found = problems.warnings();
-    warnings->insert(warnings->end(), found.begin(), found.end());
-  }
+  problems.raise(campaign.inputs, warnings);
   campaign.known = known_rig(file, campaign.rig);
-  campaign.inputs = problems.inputs();
   return campaign;
 }
 

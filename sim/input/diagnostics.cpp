@@ -1,6 +1,7 @@
 // Formatting, ordering and throwing of input problems; see the header.
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -158,6 +159,12 @@ void Problems::raise() const {
   if (errors_ == 0) return;
   if (errors_ == missing_) throw MissingInput(to_text(sorted()));
   throw BadInput(sorted());
+}
+
+void Problems::raise(std::vector<InputFile>& inputs, std::vector<Problem>* warnings) const {
+  raise();
+  std::ranges::copy(inputs_, std::back_inserter(inputs));
+  if (warnings != nullptr) std::ranges::move(this->warnings(), std::back_inserter(*warnings));
 }
 
 void read_together(std::initializer_list<std::pair<std::string_view, std::function<void()>>> inputs) {

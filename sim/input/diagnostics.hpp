@@ -82,6 +82,8 @@ class Problems {
   /// Throws BadInput with all errors and warnings if there is an error;
   /// MissingInput if only files are missing.
   void raise() const;
+  /// The same; else adds the files that were opened and, where asked, the warnings.
+  void raise(std::vector<InputFile>& inputs, std::vector<Problem>* warnings = nullptr) const;
 
  private:
   void add(Severity severity, const Source& source, Place place, std::string message, bool of_column = false,

@@ -31,8 +31,7 @@ OwnLaw read_other_file(const Source& source, const Node& node, Problems& problem
 OwnLaw read_hypothesis(const std::string& path, std::vector<InputFile>& inputs) {
   Problems problems;
   OwnLaw law = read_law_file(load_yaml(path), problems);
-  problems.raise();
-  inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
+  problems.raise(inputs);
   return law;
 }
 

@@ -320,10 +320,7 @@ Rig read_rig(Source source, std::vector<InputFile>& inputs, std::vector<Problem>
   std::error_code ignored;
   Chain chain{fs::weakly_canonical(file.source.name(), ignored)};
   read_rig_map(file, rig, problems, chain);
-  problems.raise();
-  inputs.insert(inputs.end(), problems.inputs().begin(), problems.inputs().end());
-  const std::vector<Problem> odd = problems.warnings();
-  if (warnings != nullptr) warnings->insert(warnings->end(), odd.begin(), odd.end());
+  problems.raise(inputs, warnings);
   return with_stops(std::move(rig));
 }
 
