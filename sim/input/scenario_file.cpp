@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
-#include <plant/geometry.hpp>
+#include <plant/plant.hpp>
 #include <sim/input/common_checks.hpp>
 #include <sim/input/controller_checks.hpp>
 #include <sim/input/current_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
-#include <sim/input/lever_checks.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
@@ -255,8 +254,7 @@ class ScenarioChecker {
       stays_at_0(scenario_.angle);
       return;
     }
-    if (scenario_.rig.lever() != nullptr)
-      return check_lever_target(scenario_, source_, list("target").place, problems_);
+    if (scenario_.rig.lever() != nullptr) return check_lever_target(list("target").place);
     const auto [lowest, highest] =
         controllers::range(scenario_.target, scenario_.duration_s, scenario_.rig.muscle.rest_length_m);
     const double largest = plant::Braid(scenario_.rig.muscle).largest_contraction_ratio();
@@ -278,6 +276,25 @@ class ScenarioChecker {
                         fmt::format("the target falls to a contraction ratio of {:.4g}; "
                                     "below 0 the threads are taut",
                                     lowest));
+  }
+
+  /// It goes as far as the muscle and the joint's stops let it.
+  void check_lever_target(Place target) {
+    const auto [lowest, highest] = controllers::range(scenario_.angle, scenario_.duration_s, 1.0);
+    const plant::Rig& rig = scenario_.rig;
+    const double most = plant::plant_of(rig).ratio_at_rad(highest),
+                 largest = plant::Braid(rig.muscle).largest_contraction_ratio();
+    if (!(most <= largest))
+      problems_.error(
+          source_, target,
+          fmt::format("the target takes the muscle to a contraction ratio of {:.4g}; its limit is "
+                      "{:.4g} (T 2.10)",
+                      most, largest));
+    else if (lowest < rig.joint.lowest_rad || highest > rig.joint.highest_rad)
+      problems_.error(source_, target,
+                      fmt::format("the target goes from {:.4g} to {:.4g} deg, beyond the rig's "
+                                  "joint.lowest_angle or highest_angle",
+                                  lowest / plant::degree_rad, highest / plant::degree_rad));
   }
 
   const YamlFile& file_;
