@@ -21,13 +21,6 @@ const Values* column_of(const UnknownTable& table, const std::string& name);
 /// What commands the muscle in such tables, or its pressure as an input; null if nothing.
 const ColumnGuess* drive_of(const MapGuess& map);
 
-/// Two units that a heading and the line below it say: which one is asked.
-Told two_units(const Heading& heading);
-/// A number that may be read with decimals or with thousands: asked.
-Told decimals_or_thousands(const std::string& number);
-/// The factor where the unit of the map contradicts what the file says.
-Told unit_of_the_map();
-
 /// Sign and zero of a contraction, by how it goes along with what drives the muscle. `gauge`: the muscle's
 /// pressure; null: nobody read it.
 void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const ColumnGuess* gauge,

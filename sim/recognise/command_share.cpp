@@ -1,5 +1,4 @@
-// Commands that were recorded as a share of the valve's range, or as a duty, and what is asked where a file
-// contradicts itself; see columns.hpp.
+// Commands that were recorded as a share of the valve's range, or as a duty; see columns.hpp.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -8,20 +7,6 @@
 #include <sim/recognise/headings.hpp>
 
 namespace mckibben::recognise {
-
-Told two_units(const Heading& heading) {
-  return left_open(
-      fmt::format("its heading says {}, the line below it {}: which?", heading.other_unit, heading.unit));
-}
-
-Told decimals_or_thousands(const std::string& number) {
-  return left_open(
-      fmt::format("the sign in {} may stand before decimals, 1, or between thousands, 1000", number));
-}
-
-Told unit_of_the_map() {
-  return {"1", "the unit that is written here counts, not the heading's"};
-}
 
 std::string_view of_two(const domain::Quantity& quantity, bool duties) {
   if (quantity.key == "muscle_pressure")

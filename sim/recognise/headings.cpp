@@ -356,4 +356,18 @@ Heading heading_of(const UnknownColumn& column) {
   return heading;
 }
 
+Told two_units(const Heading& heading) {
+  return left_open(
+      fmt::format("its heading says {}, the line below it {}: which?", heading.other_unit, heading.unit));
+}
+
+Told unit_of_the_map() {
+  return {"1", "the unit that is written here counts, not the heading's"};
+}
+
+Told decimals_or_thousands(const std::string& number) {
+  return left_open(
+      fmt::format("the sign in {} may stand before decimals, 1, or between thousands, 1000", number));
+}
+
 }  // namespace mckibben::recognise

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <sim/domain/columns.hpp>
-#include <sim/recognise/unknown_table.hpp>
+#include <sim/recognise/recognise.hpp>
 
 namespace mckibben::recognise {
 
@@ -26,6 +26,12 @@ struct Heading {
 };
 
 Heading heading_of(const UnknownColumn& column);
+/// Two units that it and the line below it say: which one is asked.
+Told two_units(const Heading& heading);
+/// The factor where the unit of the map contradicts what the file says.
+Told unit_of_the_map();
+/// A number that may be read with decimals or with thousands: asked.
+Told decimals_or_thousands(const std::string& number);
 /// The reason of one that nothing tells.
 inline constexpr std::string_view no_word = "neither its words nor its unit are known";
 
