@@ -13,6 +13,7 @@
 #include <sim/cli/results.hpp>
 #include <sim/cli/verbs.hpp>
 #include <sim/input/file_names.hpp>
+#include <sim/input/number.hpp>
 #include <sim/input/rigs.hpp>
 #include <sim/input/source.hpp>
 #include <sim/output/folder.hpp>
@@ -42,9 +43,7 @@ std::vector<fs::path> tables_of(const std::vector<std::string>& files) {
     std::vector<fs::path> inside;
     std::set<std::string> folders, others;  // what is inside instead
     for (const auto& entry : fs::directory_iterator(file)) {
-      std::string ending = entry.path().extension().string();
-      std::ranges::transform(ending, ending.begin(),
-                             [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      const std::string ending = input::lower(entry.path().extension().string());
       const std::string name = entry.path().stem().string();  // ~$: a lock of a spreadsheet that is open
       const bool no_ending = ending.size() > 1 && std::isdigit(static_cast<unsigned char>(ending[1])) != 0;
       if (entry.is_directory()) folders.insert(entry.path().filename().string());

@@ -1,7 +1,6 @@
 // Cells and their numbers; see the header.
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 
 #include <fmt/format.h>
@@ -36,12 +35,6 @@ bool signs_fit(std::string_view digits) {
     if (const std::size_t next = std::min(digits.find_first_of(".,", at + 1), digits.size()); next - at != 4)
       return false;
   return true;
-}
-
-std::string lower(std::string_view text) {
-  std::string small(text);
-  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return small;
 }
 
 void replace_all(std::string& text, std::string_view what, std::string_view with) {

@@ -25,4 +25,7 @@ std::string why_no_number(std::string_view text);
 /// `text` without blanks at both ends.
 std::string_view trimmed(std::string_view text);
 
+/// Its letters A to Z in small; other bytes stay.
+std::string lower(std::string_view text);
+
 }  // namespace mckibben::input

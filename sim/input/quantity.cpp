@@ -103,11 +103,10 @@ std::string_view without_reference(std::string_view text) {
   const std::size_t end = text.find_first_of(" (_[");
   if (end == std::string_view::npos) return text;
   const auto letters = [](std::string_view part) {
-    std::string lower;
-    for (const char c : part)
-      if (std::string_view(" ()[]_.").find(c) == std::string_view::npos)
-        lower += static_cast<char>((c & 0x80) != 0 ? c : std::tolower(static_cast<unsigned char>(c)));
-    return lower;
+    std::string small = lower(part);
+    std::erase_if(small,
+                  [](char c) { return std::string_view(" ()[]_.").find(c) != std::string_view::npos; });
+    return small;
   };
   const std::string unit = letters(text.substr(0, end)), reference = letters(text.substr(end));
   const bool is_reference = reference == "a" || std::ranges::find(references, reference) != references.end();
@@ -146,11 +145,9 @@ std::string_view known_as(std::string_view text) {
        {"deg", "deg"},
        {"mm", "mm"},
        {"kn", "kN"}}};
-  for (const auto& [lower, unit] : spellings)
-    if (std::ranges::equal(text, lower, {}, [](char c) {
-          return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        }))
-      return unit;
+  const std::string in_small = lower(text);
+  for (const auto& [small, unit] : spellings)
+    if (in_small == small) return unit;
   return text;
 }
 

@@ -1,6 +1,5 @@
 // Places and checks of tables; see the header.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -152,9 +151,7 @@ bool check_columns(std::size_t count, Place place, TableProblems& problems) {
 }
 
 Format format_of(const std::string& file, std::string_view text) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower(std::filesystem::path(file).extension().string());
   if (text.starts_with("LabVIEW Measurement")) return Format::lvm;  // .lvm without a header is a text
   return ending == ".mat" || text.starts_with("MATLAB 5.0 MAT-file") ? Format::mat : Format::text;
 }

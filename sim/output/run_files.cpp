@@ -1,6 +1,5 @@
 // Runs in several formats, and their data package; see the header.
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <set>
 
@@ -10,6 +9,7 @@
 #include <sim/formats/mat_file.hpp>
 #include <sim/formats/netcdf.hpp>
 #include <sim/input/fields_json.hpp>
+#include <sim/input/number.hpp>
 #include <sim/output/run_files.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -24,10 +24,8 @@ bool is_asked_for(const std::vector<std::string>& formats, std::string_view form
 
 /// Names of resources are in small letters, each its own.
 std::string resource_name(const std::string& stem, std::set<std::string>& taken) {
-  std::string name = stem;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const std::string first = name;
+  const std::string first = input::lower(stem);
+  std::string name = first;
   for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}-{}", first, n);
   return name;
 }

@@ -8,6 +8,7 @@
 
 #include <sim/input/column_hints.hpp>
 #include <sim/input/dates.hpp>
+#include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/text_layout.hpp>
 #include <sim/recognise/headings.hpp>
@@ -175,8 +176,7 @@ Split split_unit(std::string_view name) {
 
 /// A unit as it is written within a name: Sec, Psi.
 std::string unit_of_part(std::string_view part) {
-  std::string lower(part);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string lower = input::lower(part);
   if (lower == "bar" || lower == "mbar" || lower == "sec" || lower == "deg" || lower == "rad") return lower;
   return input::unit_word(part);
 }
