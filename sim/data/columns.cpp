@@ -112,7 +112,7 @@ class Columns {
         if (exchanged(i)) continue;
         current(i);
       }
-      if (hangs) judge(contraction(run), judged(i));
+      if (hangs) judge(contraction(run), compared(i));
       for (const Beside which : domain::besides)
         if (which != Beside::force) gauge(i, which);
     }
@@ -123,8 +123,8 @@ class Columns {
         with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
     Compared all, beside;
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
-      judged(i, all);
-      read_beside(i, Beside::force, beside);
+      all.add(i, data_.runs[i], expected_[i]);
+      beside.add(i, data_.runs[i], expected_[i], Beside::force);
     }
     if (data_.judged() == domain::Judged::contraction && findings_.empty()) only_gain_or_zero(all);
     if (data_.judged() == domain::Judged::angle) angle(all);
@@ -134,20 +134,10 @@ class Columns {
   }
 
  private:
-  void judged(std::size_t i, Compared& into) const {
-    const domain::Run& run = data_.runs[i];
-    into.add(i, run.judged(), expected_[i].judged,
-             [&](std::size_t k) { return !run.missing.empty() && run.missing[k]; });
-  }
-  Compared judged(std::size_t i) const {
+  Compared compared(std::size_t i, std::optional<Beside> which = {}) const {
     Compared rows;
-    judged(i, rows);
+    rows.add(i, data_.runs[i], expected_[i], which);
     return rows;
-  }
-  void read_beside(std::size_t i, Beside which, Compared& into) const {
-    const domain::Run& run = data_.runs[i];
-    if (const Series* read = run.beside(which))
-      into.add(i, *read, expected_[i].beside(which), [&](std::size_t k) { return run.is_missing(which, k); });
   }
 
   Quantity contraction(const domain::Run& run) const {
@@ -313,8 +303,7 @@ class Columns {
   }
 
   void gauge(std::size_t i, Beside which) {
-    Compared rows;
-    read_beside(i, which, rows);
+    Compared rows = compared(i, which);
     if (rows.measured.empty()) return;
     const Quantity quantity = pressure(which);
     if (!judge(quantity, rows)) return;

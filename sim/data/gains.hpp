@@ -17,14 +17,17 @@ struct Compared {
   std::vector<std::size_t> runs{};
   std::vector<double> measured{}, model{};
 
-  /// Without rows that `is_missing` names; nothing if the simulation ended early.
-  void add(std::size_t run, const std::vector<double>& read, const std::vector<double>& simulated,
-           const auto& is_missing) {
-    if (read.size() != simulated.size()) return;
-    runs.push_back(run);
-    for (std::size_t k = 0; k < read.size(); ++k) {
-      if (is_missing(k)) continue;
-      measured.push_back(read[k]);
+  /// Rows of a run in which what is judged, or what is read beside it, is there; nothing if it was not read,
+  /// or the simulation ended early.
+  void add(std::size_t place, const domain::Run& run, const Expected& expected,
+           std::optional<domain::Beside> beside = {}) {
+    const std::vector<double>* read = beside ? run.beside(*beside) : &run.judged();
+    const std::vector<double>& simulated = beside ? expected.beside(*beside) : expected.judged;
+    if (read == nullptr || read->size() != simulated.size()) return;
+    runs.push_back(place);
+    for (std::size_t k = 0; k < read->size(); ++k) {
+      if (beside ? run.is_missing(*beside, k) : !run.missing.empty() && run.missing[k]) continue;
+      measured.push_back((*read)[k]);
       model.push_back(simulated[k]);
     }
   }

@@ -136,13 +136,9 @@ data::Compared compared(const domain::Dataset& data, const std::vector<ReplayedR
     const auto is_reading = [&](domain::Beside which) {
       return data::told(which, data.rig.pair() != nullptr).first == reading && run.beside(which) != nullptr;
     };
-    const auto beside = std::ranges::find_if(domain::besides, is_reading);
-    if (beside != std::end(domain::besides))
-      rows.add(i, *run.beside(*beside), expected[i].beside(*beside),
-               [&](std::size_t k) { return run.is_missing(*beside, k); });
-    else
-      rows.add(i, run.judged(), expected[i].judged,
-               [&](std::size_t k) { return !run.missing.empty() && run.missing[k]; });
+    const auto* const beside = std::ranges::find_if(domain::besides, is_reading);
+    rows.add(i, run, expected[i],
+             beside != std::end(domain::besides) ? std::optional(*beside) : std::nullopt);
   }
   return rows;
 }
