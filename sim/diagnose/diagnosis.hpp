@@ -51,6 +51,9 @@ inline std::string full_name(const std::string& name, const std::string& variant
   return (variant.empty() ? name : name + " (" + variant + ")") + of_muscle(side);
 }
 
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& names);
+
 inline std::vector<std::string> words_of(const std::vector<EffectName>& effects) {
   std::vector<std::string> list;
   list.reserve(effects.size());

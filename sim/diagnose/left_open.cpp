@@ -145,12 +145,6 @@ std::optional<Eigen::Index> opposed(const Eigen::VectorXd& weights) {
   return (weights.array() < 0.0).count();
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  if (names.size() < 2) return names.empty() ? "" : names.front();
-  const std::vector<std::string> first(names.begin(), names.end() - 1);
-  return fmt::format("{} and {}", fmt::join(first, ", "), names.back());
-}
-
 /// What is known of a group, where it is one combination: product, ratio, sum, difference; empty if no such
 /// word fits.
 std::string known_of(const Group& group, const std::vector<FittedOne>& all) {

@@ -26,6 +26,11 @@ std::string capitalised(std::string text) {
 
 }  // namespace
 
+std::string listed(const std::vector<std::string>& names) {
+  if (names.size() < 2) return names.empty() ? "" : names.front();
+  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
 std::string faults_in_words(const Diagnosis& d) {
   std::string text;
   for (const FaultyRun& faulty : d.faults) {

@@ -158,11 +158,6 @@ std::string rounded(double value, int decimals, bool sign) {
   return sign && value > 0.0 && !nothing ? "+" + text : text;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  if (names.size() < 2) return names.empty() ? "" : names.front();
-  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
-}
-
 std::string or_others(const diagnose::NamedEffect& effect) {
   constexpr std::size_t most = 3;
   std::vector<std::string> others = words_of(effect.confusable_with);

@@ -49,9 +49,6 @@ std::string mass(double kg);
 /// With so many decimals, without the sign of a rounded nothing; `sign`: "+" before what is above 0.
 std::string rounded(double value, int decimals, bool sign = false);
 
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string>& names);
-
 /// The names that explain the data as well as an effect: "or command_delay", "or A, B or 2 more"; empty if
 /// there are none.
 std::string or_others(const diagnose::NamedEffect& effect);
@@ -62,6 +59,7 @@ std::string or_others_line(const diagnose::NamedEffect& effect);
 std::string title_of(const diagnose::Diagnosis& diagnosis);
 
 using diagnose::full_name;
+using diagnose::listed;
 
 /// What an explanation that competed explains the data by: "muscle_leak with valve_lag", "numbers further off
 /// than they are stated to be".
