@@ -16,17 +16,27 @@
 namespace mckibben::report {
 namespace {
 
+/// Of a load, or of a lever with the contraction that its angle means.
 Run shown(const domain::Run& measured, std::size_t style, const plant::Plant& plant) {
-  Run run{.name = measured.id, .style = style, .ticks = measured.current_mA.size()};
-  run.quantities = {
-      {"contraction_ratio", [&measured](std::size_t k) { return measured.contraction_ratio[k]; }},
-      {plant::command_key(plant.rig()), [&measured](std::size_t k) { return measured.current_mA[k]; }},
-      {"reference_pressure", [&measured, plant](std::size_t k) {
-         return plant.reference_pressure_Pa(measured.current_mA[k]) / 1e5;
-       }}};
-  if (measured.muscle_pressure_Pa)
+  const bool angle = plant.rig().has_angle();
+  const std::vector<double>& commands = angle ? measured.measured->given("command") : measured.current_mA;
+  Run run{.name = measured.id, .style = style, .ticks = measured.judged().size()};
+  if (angle)
     run.quantities.push_back(
-        {"muscle_pressure", [&measured](std::size_t k) { return (*measured.muscle_pressure_Pa)[k] / 1e5; }});
+        {"angle", [&measured](std::size_t k) { return in_degrees * measured.angle_rad[k]; }});
+  run.quantities.push_back({"contraction_ratio", [&measured, plant, angle](std::size_t k) {
+                              return angle ? plant.ratio_at_rad(measured.angle_rad[k])
+                                           : measured.contraction_ratio[k];
+                            }});
+  run.quantities.push_back(
+      {plant::command_key(plant.rig()), [&commands](std::size_t k) { return commands[k]; }});
+  run.quantities.push_back({"reference_pressure", [&commands, plant](std::size_t k) {
+                              return plant.reference_pressure_Pa(commands[k]) / plant::Pa_per_bar;
+                            }});
+  if (measured.muscle_pressure_Pa)
+    run.quantities.push_back({"muscle_pressure", [&measured](std::size_t k) {
+                                return (*measured.muscle_pressure_Pa)[k] / plant::Pa_per_bar;
+                              }});
   return run;
 }
 
@@ -62,24 +72,6 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::R
   };
   gauge("muscle_pressure_1", measured.muscle_pressure_Pa);
   gauge("muscle_pressure_2", measured.opposite_pressure_Pa);
-  return run;
-}
-
-/// Of a lever: what was measured, and the contraction that its angle means.
-Run shown_of_lever(const domain::Run& measured, std::size_t style, const plant::Plant& plant) {
-  Run run{.name = measured.id, .style = style, .ticks = measured.angle_rad.size()};
-  const auto* command = &measured.measured->given("command");
-  run.quantities = {{"angle", [&measured](std::size_t k) { return in_degrees * measured.angle_rad[k]; }},
-                    {"contraction_ratio",
-                     [&measured, plant](std::size_t k) { return plant.ratio_at_rad(measured.angle_rad[k]); }},
-                    {plant::command_key(plant.rig()), [command](std::size_t k) { return (*command)[k]; }},
-                    {"reference_pressure", [command, plant](std::size_t k) {
-                       return plant.reference_pressure_Pa((*command)[k]) / plant::Pa_per_bar;
-                     }}};
-  if (measured.muscle_pressure_Pa)
-    run.quantities.push_back({"muscle_pressure", [&measured](std::size_t k) {
-                                return (*measured.muscle_pressure_Pa)[k] / plant::Pa_per_bar;
-                              }});
   return run;
 }
 
@@ -121,9 +113,7 @@ void add_parts(Contents& contents, const domain::Campaign& campaign, const std::
       if (!run.failure.empty() || (pair ? run.job.current != i : run.job.load_kg != load_kg)) continue;
       const domain::Run& measured = *std::ranges::find(dataset.runs, run.job.id, &domain::Run::id);
       group.runs.push_back(asked_for(pair ? shown_of_pair(measured, part.runs, rig)
-                                     : angle
-                                         ? shown_of_lever(measured, part.runs, plant::plant_of(rig, load_kg))
-                                         : shown(measured, part.runs, plant::Plant(rig, load_kg)),
+                                          : shown(measured, part.runs, plant::plant_of(rig, load_kg)),
                                      rig));
       group.ticks = std::max(group.ticks, group.runs.back().ticks);
       part.add({1, group.runs.back().ticks,

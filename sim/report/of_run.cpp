@@ -254,14 +254,10 @@ Group group_of(const Scenario& scenario, const Comparison& comparison, const run
     const auto* rows = &runs[c].recording.samples;
     if (rows->empty()) continue;
     Run run = shown(scenario, runs[c], runs[c].controller, c);
-    if (angle)
-      run.quantities.push_back({"error", [rows, target](std::size_t k) {
-                                  return in_degrees * ((*rows)[k].angle_rad - (*target)[k]);
-                                }});
-    else
-      run.quantities.push_back({"error", [rows, target](std::size_t k) {
-                                  return (*rows)[k].state.joint.contraction_ratio - (*target)[k];
-                                }});
+    run.quantities.push_back({"error", [rows, target, angle](std::size_t k) {
+                                return angle ? in_degrees * ((*rows)[k].angle_rad - (*target)[k])
+                                             : (*rows)[k].state.joint.contraction_ratio - (*target)[k];
+                              }});
     group.runs.push_back(std::move(run));
   }
   return group;
