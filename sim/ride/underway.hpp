@@ -1,7 +1,7 @@
 // A rig that is already on its way when it is first seen: from where its load is, how fast and with which
 // acceleration, to a whole state. What cannot be seen follows from the equations: the threads carry what the
 // balance of forces asks of them, within their friction; memories of effects are where they would come to
-// rest, but for clocks, which begin with the record.
+// rest, but for clocks, which go on from the run-in before the record.
 #pragma once
 
 #include <optional>
