@@ -23,15 +23,15 @@ Follower::Follower(std::vector<ride::Rider> riders, const plant::Rig& rig, Cours
       disturbance_(std::move(disturbance)),
       riders_(std::move(riders)) {
   settling_ = ticks_before();
-  for (std::size_t i = 0; i < riders_.size(); ++i)
-    riders_[i].start(disturbed(settling(i), i, never_s, never_s), before_s(settling_));
+  const ride::Drive drive = before();
+  for (std::size_t i = 0; i < riders_.size(); ++i) riders_[i].start(settling(drive, i), before_s(settling_));
 }
 
 long Follower::ticks_before() const {
   return std::lround((course_.begins ? run_in_s : rig_.settling_time_s) / rig_.tick_s);
 }
 
-ride::Drive Follower::settling(std::size_t rider) const {
+ride::Drive Follower::before() const {
   ride::Drive drive = course_.drives.front();
   if (course_.begins) {  // commands came as they will go on: odd about the first stamp
     const double as_late_s = 2.0 * course_.time_s.front() - before_s(settling_);
@@ -41,7 +41,11 @@ ride::Drive Follower::settling(std::size_t rider) const {
     drive.opposite.current_mA = 2.0 * drive.opposite.current_mA - later.opposite.current_mA;
   }
   if (course_.filled_Pa) drive.muscle_pressure_Pa = course_.filled_Pa;
-  return ride::settling(drive, riders_[rider].plant().rig());
+  return drive;
+}
+
+ride::Drive Follower::settling(const ride::Drive& drive, std::size_t rider) const {
+  return disturbed(ride::settling(drive, riders_[rider].plant().rig()), rider, never_s, never_s);
 }
 
 void Follower::set_off() {
@@ -61,8 +65,8 @@ bool Follower::go_on() {
   if (k_ == 0 && settling_ < ticks_before()) settled_a_tick();
   if (settling_ > 0) {
     const double until_s = before_s(settling_ - 1);
-    for (std::size_t i = 0; i < riders_.size(); ++i)
-      riders_[i].hold(disturbed(settling(i), i, never_s, never_s), until_s);
+    const ride::Drive drive = before();
+    for (std::size_t i = 0; i < riders_.size(); ++i) riders_[i].hold(settling(drive, i), until_s);
     --settling_;
     return true;
   }

@@ -60,7 +60,8 @@ class Follower : public ride::BatchItem {
   }
 
   /// What acts next before the first stamp.
-  ride::Drive settling(std::size_t rider) const;
+  ride::Drive before() const;
+  ride::Drive settling(const ride::Drive& drive, std::size_t rider) const;
   void set_off();
   ride::Drive disturbed(ride::Drive drive, std::size_t rider, double from_s, double to_s) const;
 
