@@ -204,16 +204,9 @@ void add_linearise(CLI::App& app, Asked& asked) {
                   "angle \"20 deg\"; may be repeated (default: the middle of the valve's commands)")
       ->allow_extra_args(false)
       ->type_name("PLACE");
-  verb.add_option_function<std::vector<std::string>>(
-          "--load",
-          [&options](const std::vector<std::string>& texts) {
-            for (const auto& text : texts) options.loads_kg.push_back(positive_quantity(text, "kg", 500.0));
-          },
-          "Load such as \"11 kg\"; may be repeated (default: the scenario's; of a rig one that the muscle "
-          "lifts "
-          "halfway)")
-      ->allow_extra_args(false)
-      ->type_name("LOAD");
+  add_loads(verb, options.loads_kg,
+            "\"11 kg\"; may be repeated (default: the scenario's; of a rig one that the muscle lifts "
+            "halfway)");
   verb.add_option(
           "--friction", options.friction,
           "Threads that slide, whose friction is constant, or stick, whose friction is a spring (default: "

@@ -162,15 +162,9 @@ void add_map(CLI::App& app, Asked& asked) {
   add_input(verb, options.calibration, "calibration", "Calibration file that `calibrate` wrote",
             "CALIBRATION");
   add_common(verb, options, "out/<calibration>-map");
-  verb.add_option_function<std::vector<std::string>>(
-          "--load",
-          [&options](const std::vector<std::string>& texts) {
-            for (const auto& text : texts) options.loads_kg.push_back(positive_quantity(text, "kg", 500.0));
-          },
-          "Load such as \"8.87 kg\"; may be repeated (default: the thesis's five and its unseen 8.87 kg, "
-          "those that the calibration covers; of a calibration for other loads its ends and middle)")
-      ->allow_extra_args(false)
-      ->type_name("LOAD");
+  add_loads(verb, options.loads_kg,
+            "\"8.87 kg\"; may be repeated (default: the thesis's five and its unseen 8.87 kg, "
+            "those that the calibration covers; of a calibration for other loads its ends and middle)");
   add_rig(verb, options.rig, "(default: thesis)");
   verb.add_flag("--up", options.up, "Going up only");
   verb.add_flag("--down", options.down, "Going down only");

@@ -57,15 +57,11 @@ void add_json(CLI::App& verb, Options& options) {
   verb.add_flag("--json", options.json, "Print the result as one JSON document");
 }
 
-void add_threads(CLI::App& verb, Options& options) {
-  add_number(verb, "--threads", options.threads, 1, 1024,
-             "Threads (default: all the machine has); results do not depend on it");
-}
-
 void add_common(CLI::App& verb, Options& options, const std::string& otherwise) {
   add_out(verb, options, otherwise);
   add_json(verb, options);
-  add_threads(verb, options);
+  add_number(verb, "--threads", options.threads, 1, 1024,
+             "Threads (default: all the machine has); results do not depend on it");
 }
 
 void add_seed(CLI::App& verb, Options& options, const std::string& what) {
@@ -99,6 +95,15 @@ void add_input(CLI::App& verb, std::string& path, const char* name, const char* 
 
 void add_measured(CLI::App& verb, std::string& path) {
   add_input(verb, path, "dataset", "Data set: its dataset.yaml or the folder", "DATASET");
+}
+
+void add_loads(CLI::App& verb, std::vector<double>& loads_kg, const std::string& example) {
+  const auto read = [&loads_kg](const std::vector<std::string>& texts) {
+    for (const auto& text : texts) loads_kg.push_back(positive_quantity(text, "kg", 500.0));
+  };
+  verb.add_option_function<std::vector<std::string>>("--load", read, "Load such as " + example)
+      ->allow_extra_args(false)
+      ->type_name("LOAD");
 }
 
 CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& words,

@@ -35,7 +35,6 @@ struct Options {
 /// `otherwise`: where results go without it.
 void add_out(CLI::App& verb, Options& options, const std::string& otherwise = "out/<name>");
 void add_json(CLI::App& verb, Options& options);
-void add_threads(CLI::App& verb, Options& options);
 /// --out, --json, --threads
 void add_common(CLI::App& verb, Options& options, const std::string& otherwise = "out/<name>");
 /// `what`: what the seed is of, and its default.
@@ -75,6 +74,9 @@ void add_quantity(CLI::App& verb, const char* name, auto& value, const char* uni
   };
   verb.add_option_function<std::string>(name, read, what)->type_name(type);
 }
+
+/// Loads that a verb takes. `example`: of one, and what goes without them.
+void add_loads(CLI::App& verb, std::vector<double>& loads_kg, const std::string& example);
 
 /// What is wrong with the first verb or option that is none, and what may have been meant; empty if nothing.
 /// CLI11 would name a missing argument instead, or nothing that helps.
