@@ -82,8 +82,8 @@ Looked read_any(const std::filesystem::path& path, std::vector<Problem>& warning
   const input::YamlFile file = input::load_yaml(path);
   const input::Node* schema = file.root.find("schema");
   const std::string kind = schema == nullptr ? "" : schema->text.substr(0, schema->text.find('/'));
+  std::vector<domain::InputFile> inputs;
   if (kind == "mckibben-rig") {
-    std::vector<domain::InputFile> inputs;
     const plant::Rig rig = input::read_rig(path.string(), inputs, &warnings);
     return {"", {}, input::taken_over(file, rig)};
   } else if (kind == "mckibben-dataset") {
@@ -91,12 +91,10 @@ Looked read_any(const std::filesystem::path& path, std::vector<Problem>& warning
   } else if (kind == "mckibben-campaign") {
     input::read_campaign(path, &warnings);
   } else if (kind == "mckibben-calibration") {
-    std::vector<domain::InputFile> inputs;
     input::read_calibration(path, inputs);
   } else if (kind == "mckibben-scenario" || kind == "mckibben-pair") {
     input::read_scenario(path, warnings);
   } else if (kind == "mckibben-hypothesis") {
-    std::vector<domain::InputFile> inputs;
     input::read_hypothesis(path.string(), inputs);
   } else {
     input::Problems problems;
@@ -125,12 +123,22 @@ Json problem_json(const Problem& problem) {
   return entry;
 }
 
-int print_kind(std::string_view schema, const char* title, const auto& fields, const std::string& format) {
-  if (format == "json")
-    print(input::json_schema(schema, title, fields).dump(2) + "\n");
-  else
-    print(input::field_lists({{title, fields}}));
-  return done;
+/// In the order of the reference page.
+struct Kind {
+  std::string name;  ///< of `schema`
+  std::string_view schema;
+  std::string title;
+  std::vector<input::FieldInfo> fields;
+};
+std::vector<Kind> all_kinds() {
+  using namespace input;
+  return {{"scenario", scenario_schema, "Scenario", list_fields<domain::Scenario>()},
+          {"campaign", campaign_schema, "Campaign", list_fields<domain::Campaign>()},
+          {"rig", rig_schema, "Rig", list_fields<plant::Rig>()},
+          {"dataset", dataset_schema, "Data set", list_fields<domain::Dataset>()},
+          {"pair", pair_schema, "Pair", list_fields(domain::pair_scenario())},
+          {"lever", scenario_schema, "Lever", list_fields(domain::lever_scenario())},
+          {"hypothesis", hypothesis_schema, "Hypothesis", hypothesis_fields()}};
 }
 
 Json columns_json() {
@@ -215,19 +223,14 @@ int check_files(const CheckOptions& options) {
 
 /// docs/reference.md.
 std::string reference_page() {
+  std::vector<input::KindOfFile> kinds;
+  for (Kind& kind : all_kinds()) kinds.push_back({std::move(kind.title), std::move(kind.fields)});
   return "# Every key\n\n"
          "Printed by `mckibben schema all --format markdown`: range and default of every key, by kind of "
          "file. "
          "Where a command is in mA, the unit is the valve's: V or bar in rigs that take these. "
          "[Scenarios](scenarios.md) and [Data sets](datasets.md) explain the files.\n\n" +
-         input::field_lists({{"Scenario", input::list_fields<domain::Scenario>()},
-                             {"Campaign", input::list_fields<domain::Campaign>()},
-                             {"Rig", input::list_fields<plant::Rig>()},
-                             {"Data set", input::list_fields<domain::Dataset>()},
-                             {"Pair", input::list_fields(domain::pair_scenario())},
-                             {"Lever", input::list_fields(domain::lever_scenario())},
-                             {"Hypothesis", input::hypothesis_fields()}}) +
-         output::table_of_signals();
+         input::field_lists(kinds) + output::table_of_signals();
 }
 
 struct SchemaOptions : Options {
@@ -258,18 +261,11 @@ int print_schema(const SchemaOptions& options) {
     print(format == "json" ? columns_json().dump(2) + "\n" : output::table_of_signals());
     return done;
   }
-  if (kind == "rig") return print_kind(input::rig_schema, "Rig", input::list_fields<plant::Rig>(), format);
-  if (kind == "campaign")
-    return print_kind(input::campaign_schema, "Campaign", input::list_fields<domain::Campaign>(), format);
-  if (kind == "dataset")
-    return print_kind(input::dataset_schema, "Data set", input::list_fields<domain::Dataset>(), format);
-  if (kind == "lever")
-    return print_kind(input::scenario_schema, "Lever", input::list_fields(domain::lever_scenario()), format);
-  if (kind == "pair")
-    return print_kind(input::pair_schema, "Pair", input::list_fields(domain::pair_scenario()), format);
-  if (kind == "hypothesis")
-    return print_kind(input::hypothesis_schema, "Hypothesis", input::hypothesis_fields(), format);
-  return print_kind(input::scenario_schema, "Scenario", input::list_fields<domain::Scenario>(), format);
+  const std::vector<Kind> all = all_kinds();
+  const Kind& one = *std::ranges::find(all, kind, &Kind::name);
+  print(format == "json" ? input::json_schema(one.schema, one.title, one.fields).dump(2) + "\n"
+                         : input::field_lists({{one.title, one.fields}}));
+  return done;
 }
 
 }  // namespace
