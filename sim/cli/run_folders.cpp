@@ -11,6 +11,7 @@
 
 #include <sim/cli/run_folders.hpp>
 #include <sim/domain/number.hpp>
+#include <sim/input/cells.hpp>
 #include <sim/input/json_file.hpp>
 #include <sim/input/limits.hpp>
 #include <sim/input/readers.hpp>
@@ -122,12 +123,7 @@ std::vector<std::string> columns_of(const input::Source& source) {
   }
   problems.raise();
   std::vector<std::string> names;
-  const std::string_view head = source.line(1);
-  for (std::size_t from = 0; from <= head.size();) {
-    const std::size_t end = std::min(head.find(',', from), head.size());
-    names.emplace_back(head.substr(from, end - from));
-    from = end + 1;
-  }
+  for (const input::Cell& cell : input::split_cells(source.line(1), ',')) names.emplace_back(cell.text);
   return names;
 }
 
