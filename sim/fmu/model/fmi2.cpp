@@ -1,7 +1,6 @@
 // The interface of FMI 2.0 for co-simulation (fmi-standard.org, sections 2 and 4): every function of it, over
 // an Instance. Types are those of the standard's headers by their size.
 #include <cstddef>
-#include <memory>
 #include <string>
 
 #include <sim/fmu/model/instance.hpp>
@@ -10,9 +9,7 @@
 
 namespace mckibben::fmu::two {
 
-enum Status { ok, warning, discard, error, fatal, pending };
 using Component = Instance*;
-using Reference = unsigned;
 using State = Slave*;
 
 /// What an importer hands over; only the log is needed.
@@ -27,31 +24,11 @@ struct Callbacks {
 
 constexpr int co_simulation = 1;
 
-Status as_status(bool done) {
-  return done ? ok : error;
-}
-
 /// What a variable of another type, or another way to step, would ask for; there is none.
 Status not_offered(Component instance, std::size_t wanted = 1) {
   if (wanted == 0) return ok;
   instance->log("this FMU does not offer that function");
   return error;
-}
-
-template <class Value>
-Status get(Component instance, const Reference* references, std::size_t count, Value* values) {
-  return as_status(instance->done([&] {
-    for (std::size_t i = 0; i < count; ++i)
-      values[i] = static_cast<Value>(instance->slave.get(references[i]));
-  }));
-}
-
-template <class Value>
-Status set(Component instance, const Reference* references, std::size_t count, const Value* values) {
-  return as_status(instance->done([&] {
-    for (std::size_t i = 0; i < count; ++i)
-      instance->slave.set(references[i], static_cast<double>(values[i]));
-  }));
 }
 
 EXPORTED const char* fmi2GetTypesPlatform() {
@@ -81,26 +58,26 @@ EXPORTED void fmi2FreeInstance(Component instance) {
 }
 
 EXPORTED Status fmi2SetupExperiment(Component instance, int, double, double start_s, int, double) {
-  return as_status(instance->done([&] { instance->slave.set_up(start_s); }));
+  return instance->done([&] { instance->slave.set_up(start_s); });
 }
 EXPORTED Status fmi2EnterInitializationMode(Component instance) {
-  return as_status(instance->done([&] { instance->slave.initialise(); }));
+  return instance->done([&] { instance->slave.initialise(); });
 }
 EXPORTED Status fmi2ExitInitializationMode(Component instance) {
-  return as_status(instance->done([&] { instance->slave.set_off(); }));
+  return instance->done([&] { instance->slave.set_off(); });
 }
 EXPORTED Status fmi2Terminate(Component instance) {
-  return as_status(instance->done([&] { instance->slave.terminate(); }));
+  return instance->done([&] { instance->slave.terminate(); });
 }
 EXPORTED Status fmi2Reset(Component instance) {
-  return as_status(instance->done([&] { instance->slave = Slave(instance->rig); }));
+  return instance->done([&] { instance->slave = Slave(instance->rig); });
 }
 
 EXPORTED Status fmi2GetReal(Component c, const Reference* references, std::size_t count, double* values) {
-  return get(c, references, count, values);
+  return c->get(references, count, values);
 }
 EXPORTED Status fmi2GetInteger(Component c, const Reference* references, std::size_t count, int* values) {
-  return get(c, references, count, values);
+  return c->get(references, count, values);
 }
 EXPORTED Status fmi2GetBoolean(Component c, const Reference*, std::size_t count, int*) {
   return not_offered(c, count);
@@ -110,7 +87,7 @@ EXPORTED Status fmi2GetString(Component c, const Reference*, std::size_t count, 
 }
 EXPORTED Status fmi2SetReal(Component c, const Reference* references, std::size_t count,
                             const double* values) {
-  return set(c, references, count, values);
+  return c->set(references, count, values);
 }
 EXPORTED Status fmi2SetInteger(Component c, const Reference*, std::size_t count, const int*) {
   return not_offered(c, count);
@@ -123,27 +100,24 @@ EXPORTED Status fmi2SetString(Component c, const Reference*, std::size_t count, 
 }
 
 EXPORTED Status fmi2GetFMUstate(Component instance, State* state) {
-  return as_status(instance->done([&] {
-    auto copy = std::make_unique<Slave>(instance->slave);
-    delete std::exchange(*state, copy.release());
-  }));
+  return instance->done([&] { instance->keep(*state); });
 }
 EXPORTED Status fmi2SetFMUstate(Component instance, State state) {
-  return as_status(instance->done([&] { instance->slave = Slave(saved(state)); }));
+  return instance->done([&] { instance->slave = Slave(saved(state)); });
 }
 EXPORTED Status fmi2FreeFMUstate(Component, State* state) {
   if (state != nullptr) delete std::exchange(*state, nullptr);
   return ok;
 }
 EXPORTED Status fmi2SerializedFMUstateSize(Component instance, State state, std::size_t* size) {
-  return as_status(instance->done([&] { *size = instance->bytes_of(saved(state)).size(); }));
+  return instance->done([&] { *size = instance->bytes_of(saved(state)).size(); });
 }
 EXPORTED Status fmi2SerializeFMUstate(Component instance, State state, char* bytes, std::size_t size) {
-  return as_status(instance->done([&] { instance->write(saved(state), bytes, size); }));
+  return instance->done([&] { instance->write(saved(state), bytes, size); });
 }
 EXPORTED Status fmi2DeSerializeFMUstate(Component instance, const char* bytes, std::size_t size,
                                         State* state) {
-  return as_status(instance->done([&] { instance->read({bytes, size}, *state); }));
+  return instance->done([&] { instance->read({bytes, size}, *state); });
 }
 EXPORTED Status fmi2GetDirectionalDerivative(Component c, const Reference*, std::size_t, const Reference*,
                                              std::size_t, const double*, double*) {
@@ -159,7 +133,7 @@ EXPORTED Status fmi2GetRealOutputDerivatives(Component c, const Reference*, std:
 }
 
 EXPORTED Status fmi2DoStep(Component instance, double from_s, double length_s, int) {
-  return as_status(instance->done([&] { instance->slave.step(from_s, length_s); }));
+  return instance->done([&] { instance->slave.step(from_s, length_s); });
 }
 EXPORTED Status fmi2CancelStep(Component c) {
   return not_offered(c);
@@ -171,7 +145,7 @@ EXPORTED Status fmi2GetStatus(Component, int, Status*) {
 EXPORTED Status fmi2GetRealStatus(Component instance, int kind, double* value) {
   constexpr int last_successful_time = 2;
   if (kind != last_successful_time) return discard;
-  return as_status(instance->done([&] { *value = instance->slave.get(time_of_ride); }));
+  return instance->done([&] { *value = instance->slave.get(time_of_ride); });
 }
 EXPORTED Status fmi2GetIntegerStatus(Component, int, int*) {
   return discard;

@@ -3,8 +3,6 @@
 // those of the standard's headers by their size.
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <utility>
 
 #include <sim/fmu/model/instance.hpp>
 
@@ -12,21 +10,7 @@
 
 namespace mckibben::fmu::three {
 
-enum Status { ok, warning, discard, error, fatal };
-using Reference32 = std::uint32_t;
 using Log = void (*)(void* environment, Status status, const char* category, const char* message);
-
-Status status_of(bool done) {
-  return done ? ok : error;
-}
-
-template <class Value>
-Status get(Instance* instance, const Reference32* references, std::size_t count, Value* values) {
-  return status_of(instance->done([&] {
-    for (std::size_t i = 0; i < count; ++i)
-      values[i] = static_cast<Value>(instance->slave.get(references[i]));
-  }));
-}
 
 EXPORTED const char* fmi3GetVersion() {
   return "3.0";
@@ -36,7 +20,7 @@ EXPORTED Status fmi3SetDebugLogging(Instance*, bool, std::size_t, const char* co
 }
 
 EXPORTED Instance* fmi3InstantiateCoSimulation(const char*, const char* token, const char* resources, bool,
-                                               bool, bool, bool, const Reference32*, std::size_t,
+                                               bool, bool, bool, const Reference*, std::size_t,
                                                void* environment, Log log_message, void*) {
   const auto log = [environment, log_message](const char* message) {
     if (log_message != nullptr) log_message(environment, error, "logStatusError", message);
@@ -52,44 +36,39 @@ EXPORTED void fmi3FreeInstance(Instance* instance) {
 }
 
 EXPORTED Status fmi3EnterInitializationMode(Instance* instance, bool, double, double start_s, bool, double) {
-  return status_of(instance->done([&] {
+  return instance->done([&] {
     instance->slave.set_up(start_s);
     instance->slave.initialise();
-  }));
+  });
 }
 EXPORTED Status fmi3ExitInitializationMode(Instance* instance) {
-  return status_of(instance->done([&] { instance->slave.set_off(); }));
+  return instance->done([&] { instance->slave.set_off(); });
 }
 EXPORTED Status fmi3Terminate(Instance* instance) {
-  return status_of(instance->done([&] { instance->slave.terminate(); }));
+  return instance->done([&] { instance->slave.terminate(); });
 }
 EXPORTED Status fmi3Reset(Instance* instance) {
-  return status_of(instance->done([&] { instance->slave = Slave(instance->rig); }));
+  return instance->done([&] { instance->slave = Slave(instance->rig); });
 }
 
-EXPORTED Status fmi3GetFloat64(Instance* c, const Reference32* references, std::size_t count, double* values,
+EXPORTED Status fmi3GetFloat64(Instance* c, const Reference* references, std::size_t count, double* values,
                                std::size_t) {
-  return get(c, references, count, values);
+  return c->get(references, count, values);
 }
-EXPORTED Status fmi3GetInt64(Instance* c, const Reference32* references, std::size_t count,
+EXPORTED Status fmi3GetInt64(Instance* c, const Reference* references, std::size_t count,
                              std::int64_t* values, std::size_t) {
-  return get(c, references, count, values);
+  return c->get(references, count, values);
 }
-EXPORTED Status fmi3SetFloat64(Instance* instance, const Reference32* references, std::size_t count,
+EXPORTED Status fmi3SetFloat64(Instance* instance, const Reference* references, std::size_t count,
                                const double* values, std::size_t) {
-  return status_of(instance->done([&] {
-    for (std::size_t i = 0; i < count; ++i) instance->slave.set(references[i], values[i]);
-  }));
+  return instance->set(references, count, values);
 }
 
 EXPORTED Status fmi3GetFMUState(Instance* instance, Slave** state) {
-  return status_of(instance->done([&] {
-    auto copy = std::make_unique<Slave>(instance->slave);
-    delete std::exchange(*state, copy.release());
-  }));
+  return instance->done([&] { instance->keep(*state); });
 }
 EXPORTED Status fmi3SetFMUState(Instance* instance, Slave* state) {
-  return status_of(instance->done([&] { instance->slave = Slave(saved(state)); }));
+  return instance->done([&] { instance->slave = Slave(saved(state)); });
 }
 EXPORTED Status fmi3FreeFMUState(Instance*, Slave** state) {
   if (state != nullptr) delete std::exchange(*state, nullptr);
@@ -97,23 +76,23 @@ EXPORTED Status fmi3FreeFMUState(Instance*, Slave** state) {
 }
 
 EXPORTED Status fmi3SerializedFMUStateSize(Instance* instance, Slave* state, std::size_t* size) {
-  return status_of(instance->done([&] { *size = instance->bytes_of(saved(state)).size(); }));
+  return instance->done([&] { *size = instance->bytes_of(saved(state)).size(); });
 }
 EXPORTED Status fmi3SerializeFMUState(Instance* instance, Slave* state, char* bytes, std::size_t size) {
-  return status_of(instance->done([&] { instance->write(saved(state), bytes, size); }));
+  return instance->done([&] { instance->write(saved(state), bytes, size); });
 }
 EXPORTED Status fmi3DeserializeFMUState(Instance* instance, const char* bytes, std::size_t size,
                                         Slave** state) {
-  return status_of(instance->done([&] { instance->read({bytes, size}, *state); }));
+  return instance->done([&] { instance->read({bytes, size}, *state); });
 }
 
 EXPORTED Status fmi3DoStep(Instance* instance, double from_s, double length_s, bool, bool* event,
                            bool* terminate, bool* early, double* reached_s) {
   for (bool* flag : {event, terminate, early})
     if (flag != nullptr) *flag = false;
-  const bool done = instance->done([&] { instance->slave.step(from_s, length_s); });
-  if (reached_s != nullptr) *reached_s = done ? from_s + length_s : from_s;
-  return status_of(done);
+  const Status done = instance->done([&] { instance->slave.step(from_s, length_s); });
+  if (reached_s != nullptr) *reached_s = done == ok ? from_s + length_s : from_s;
+  return done;
 }
 
 // Instances of other kinds than co-simulation.

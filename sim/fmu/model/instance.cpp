@@ -3,6 +3,7 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 
 #include <sim/fmu/model/instance.hpp>
@@ -30,6 +31,11 @@ void Instance::write(const Slave& state, char* into, std::size_t size) const {
   const std::string bytes = bytes_of(state);
   if (size < bytes.size()) throw std::runtime_error("a state takes more bytes than that");
   std::ranges::copy(bytes, into);
+}
+
+void Instance::keep(Slave*& state) const {
+  auto copy = std::make_unique<Slave>(slave);
+  delete std::exchange(state, copy.release());
 }
 
 void Instance::read(std::string_view bytes, Slave*& state) const {

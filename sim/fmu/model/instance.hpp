@@ -2,16 +2,24 @@
 // unpacked, and a guard that turns exceptions into a line of the log.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include <sim/fmu/model/slave.hpp>
 
 namespace mckibben::fmu {
+
+/// As both versions number them; `pending` is of version 2 alone.
+enum Status { ok, warning, discard, error, fatal, pending };
+using Reference = std::uint32_t;
 
 struct Instance {
   std::function<void(const char* message)> log;
@@ -19,21 +27,34 @@ struct Instance {
   plant::Rig rig;     ///< as it was unpacked, for a reset
   Slave slave;
 
-  /// Does it; false if it could not, and the log says why.
-  bool done(const auto& work) {
+  /// Does it; where it cannot, the log says why.
+  Status done(const auto& work) {
     try {
       work();
-      return true;
+      return ok;
     } catch (const std::exception& failure) {
       log(failure.what());
-      return false;
+      return error;
     }
+  }
+  Status get(const Reference* references, std::size_t count, auto* values) {
+    return done([&] {
+      for (std::size_t i = 0; i < count; ++i)
+        values[i] = static_cast<std::remove_pointer_t<decltype(values)>>(slave.get(references[i]));
+    });
+  }
+  Status set(const Reference* references, std::size_t count, const double* values) {
+    return done([&] {
+      for (std::size_t i = 0; i < count; ++i) slave.set(references[i], values[i]);
+    });
   }
 
   std::string bytes_of(const Slave& state) const { return state.bytes(token); }
   /// Throws std::runtime_error where there is no room for it.
   void write(const Slave& state, char* into, std::size_t size) const;
-  /// `state`: null, or one that is given up. Throws as Slave::become.
+  // `state`: null, or one that is given up.
+  void keep(Slave*& state) const;
+  /// Throws as Slave::become.
   void read(std::string_view bytes, Slave*& state) const;
 };
 
