@@ -8,8 +8,8 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
 
-#include <sim/diagnose/force_term.hpp>
 #include <sim/diagnose/left_open.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/domain/number.hpp>
@@ -26,6 +26,16 @@ namespace {
 constexpr double half_95 = diagnose::thresholds.tell.normal;
 constexpr double unknown = 0.8;  // of the prior's variance: the data have hardly narrowed it
 constexpr double fine = 0.2;     // of what a number alone may be off by: a digit that is worth writing
+
+/// What a term stands for: "P e", "sin(2 pi x / 12.000 mm + 0.40 rad)".
+std::string in_words(const plant::ForceTerm& term) {
+  if (term.of != plant::Basis::sine) return std::string(plant::name_of(term.of));
+  const bool shifted = std::abs(term.phase_rad) >= diagnose::thresholds.tell.told_phase;
+  return fmt::format(
+      "sin(2 pi x / {:.3f} mm{})", 1e3 * term.wavelength_m,
+      shifted ? fmt::format(" {} {:.2f} rad", term.phase_rad < 0.0 ? "-" : "+", std::abs(term.phase_rad))
+              : "");
+}
 
 Eigen::VectorXd step_to_most_probable(const Model& model) {
   const Eigen::VectorXd v = model.problem->dictionary.vector(model.point);
@@ -227,7 +237,7 @@ class Estimating {
 
   plant::ForceTerm term(plant::ForceTerm found, std::size_t i) {
     const Index j = place_of(Kind::term, i);
-    FittedNumber size = around(diagnose::words(found), "N", v_[j], deviation(j), determined(j));
+    FittedNumber size = around(in_words(found), "N", v_[j], deviation(j), determined(j));
     size.value = found.coefficient_N = with_digits(v_[j], alone(j));
     result_.law.push_back({size.name, size});
     return found;
@@ -259,7 +269,7 @@ class Estimating {
     phase.value = found.phase_rad = with_digits(phase.value, alone_along(across) / N);
     shape.push_back(std::move(phase));
     found.coefficient_N = with_digits(N, alone_along(along));
-    FittedNumber size = around(diagnose::words(found), "N", N, std::sqrt(variance(along)),
+    FittedNumber size = around(in_words(found), "N", N, std::sqrt(variance(along)),
                                variance(along) < unknown * model_.term_N * model_.term_N);
     size.value = found.coefficient_N;
     result_.law.push_back({size.name, size, std::move(shape)});
