@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -42,14 +43,16 @@ void make_runs(const domain::Campaign& campaign, const output::CampaignFolder& f
   const auto jobs = run::longest_first(campaign, folder.jobs());
   cluster::Handout handout(place, jobs.size(), [&](std::size_t i) { return folder.has(jobs[i]); });
   const auto take = [&] { return handout.take(); };
-  const auto finished = [&](std::size_t i, const run::CampaignRun& run) {
-    folder.put(run);
+  const auto finished = [&](std::size_t i, run::Recording recording) {
+    folder.put({jobs[i], std::move(recording)});
     handout.done(i);
     progress("simulating", handout.there(), jobs.size());
   };
   progress("simulating", 0, jobs.size());
   do {
-    run::run_jobs(campaign, jobs, take, handout.fair_share(), threads, finished);
+    run::simulate_all(
+        take, handout.fair_share(), threads, [&](std::size_t i) { return run::order_of(campaign, jobs[i]); },
+        finished);
   } while (place.crew().leads() && handout.again());
   if (run::interrupted()) throw run::Interrupted();
 }

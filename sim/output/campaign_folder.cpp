@@ -187,7 +187,7 @@ void CampaignFolder::put(const run::CampaignRun& run) const {
     write_staged(unfinished_ / name, text);
     written.push_back({{"name", name}, {"bytes", text.size()}, {"sha256", input::sha256_hex(text)}});
   };
-  if (run.failure.empty()) {
+  if (run.recording.failure.empty()) {
     const plant::Rig& rig = campaign_.rig;
     if (!rig.has_angle()) write(files.ascii, thesis_ascii(run.recording, rig, run.job.load_kg));
     auto [measured_columns, true_columns] = tables_of(run.recording, rig);

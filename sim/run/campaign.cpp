@@ -1,13 +1,12 @@
 // Jobs of a campaign; see the header.
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <sim/data/warnings.hpp>
-#include <sim/run/batch.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/draws.hpp>
 #include <sim/run/two_currents.hpp>
@@ -69,44 +68,8 @@ Order order_of(const domain::Campaign& campaign, const CampaignJob& job) {
   return order;
 }
 
-namespace {
-
-CampaignRun made(const CampaignJob& job, Recording recording) {
-  CampaignRun run{.job = job, .recording = std::move(recording)};
-  run.failure = run.recording.failure;
-  return run;
-}
-
-}  // namespace
-
-CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job) {
-  const Order order = order_of(campaign, job);
-  return made(job, simulate(order.plan, *order.controller));
-}
-
-void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
-              const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress) {
-  std::atomic<std::size_t> done{0};
-  const auto sorted = longest_first(campaign, jobs);
-  progress("simulating", 0, sorted.size());
-  simulate_all(
-      sorted.size(), threads, [&](std::size_t i) { return order_of(campaign, sorted[i]); },
-      [&](std::size_t i, Recording recording) {
-        finished(made(sorted[i], std::move(recording)));
-        progress("simulating", ++done, sorted.size());
-      });
-}
-
-void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, const Take& take,
-              std::size_t about, unsigned threads,
-              const std::function<void(std::size_t, const CampaignRun&)>& finished) {
-  simulate_all(
-      take, about, threads, [&](std::size_t i) { return order_of(campaign, jobs[i]); },
-      [&](std::size_t i, Recording recording) { finished(i, made(jobs[i], std::move(recording))); });
-}
-
 EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run) {
-  if (!run.failure.empty()) return {run.job, run.failure};
+  if (!run.recording.failure.empty()) return {run.job, run.recording.failure};
   const auto& samples = run.recording.samples;
   EndedRun end{.job = run.job, .rows = samples.size(), .solver = run.recording.solver};
   if (campaign.rig.has_angle()) {
@@ -125,27 +88,6 @@ std::vector<std::string> warnings_of(const std::vector<EndedRun>& runs) {
   for (const EndedRun& run : runs)
     for (const std::string& doubt : run.doubts) all.push_back(data::warning_of_run(run.job.id, doubt));
   return data::grouped(all);
-}
-
-domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run) {
-  domain::Run table;
-  table.id = run.job.id;
-  table.file = run.job.id + ".csv";
-  table.load_kg = run.job.load_kg;
-  const double per_count = contraction_per_count(campaign.rig);
-  if (campaign.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr) table.muscle_pressure_Pa.emplace();
-  for (const Sample& sample : run.recording.samples) {
-    table.current_mA.push_back(sample.current_mA);
-    if (campaign.rig.has_angle())
-      table.angle_rad.push_back(sample.read_angle_rad);
-    else
-      table.contraction_ratio.push_back(static_cast<double>(sample.counts) * per_count);
-    if (table.muscle_pressure_Pa)
-      table.muscle_pressure_Pa->push_back(sample.shown[plant::Sensed::muscle_pressure]);
-    if (campaign.rig.sensors.of(plant::Sensed::force) != nullptr)
-      table.force_N.push_back(sample.shown[plant::Sensed::force]);
-  }
-  return table;
 }
 
 }  // namespace mckibben::run

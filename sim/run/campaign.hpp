@@ -4,14 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <sim/domain/campaign.hpp>
-#include <sim/domain/dataset.hpp>
-#include <sim/run/compare.hpp>
 #include <sim/run/recording.hpp>
 #include <sim/run/simulate.hpp>
 
@@ -32,13 +29,12 @@ struct CampaignJob {
 struct CampaignRun {
   CampaignJob job;
   Recording recording{};
-  std::string failure{};  ///< why the integrator gave up; empty if it did not
 };
 
 /// What is kept of a run whose rows are on disk.
 struct EndedRun {
   CampaignJob job;
-  std::string failure{};  ///< as in CampaignRun; then there is nothing else
+  std::string failure{};  ///< as in Recording; then there is nothing else
   std::size_t rows = 0;
   double largest_contraction_ratio = 0.0;  ///< as counted; of one muscle
   Span angle_rad{};                        ///< as counted; of a pair
@@ -58,28 +54,9 @@ CampaignJob job_of(const domain::Campaign& campaign, std::size_t place);
 /// What is to be simulated for a job, and what drives it.
 Order order_of(const domain::Campaign& campaign, const CampaignJob& job);
 
-/// Simulates one of them by itself. Touches no files.
-CampaignRun run_job(const domain::Campaign& campaign, const CampaignJob& job);
-
-/// Simulates `jobs` on `threads` threads (0: all the machine has), side by side. What comes of a job depends
-/// on nothing but campaign and job. `finished` is given each run as it ends, from any thread, in any order.
-/// Throws Interrupted; what `finished` throws.
-void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, unsigned threads,
-              const std::function<void(const CampaignRun&)>& finished, const ProgressHook& progress);
-
-/// The same of those of `jobs` that `take` hands out by their place, from any thread, until there is none.
-/// `about`: how many that may be.
-void run_jobs(const domain::Campaign& campaign, std::span<const CampaignJob> jobs, const Take& take,
-              std::size_t about, unsigned threads,
-              const std::function<void(std::size_t, const CampaignRun&)>& finished);
-
 EndedRun ended(const domain::Campaign& campaign, const CampaignRun& run);
 
 /// What should not be believed of the runs, in words.
 std::vector<std::string> warnings_of(const std::vector<EndedRun>& runs);
-
-/// What was measured in a run of one muscle: currents, counted contraction ratios, pressures if the rig has a
-/// gauge.
-domain::Run measured(const domain::Campaign& campaign, const CampaignRun& run);
 
 }  // namespace mckibben::run

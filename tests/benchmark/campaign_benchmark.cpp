@@ -10,7 +10,8 @@
 #include <fmt/format.h>
 
 #include <sim/input/campaign_file.hpp>
-#include <sim/run/campaign.hpp>
+
+#include "campaign_runs.hpp"
 
 namespace mckibben::run {
 namespace {
@@ -32,9 +33,7 @@ double one_by_one(const domain::Campaign& campaign, const std::vector<CampaignJo
 
 double side_by_side(const domain::Campaign& campaign, const std::vector<CampaignJob>& jobs) {
   double sum_s = 0.0;
-  run_jobs(
-      campaign, jobs, 1, [&](const CampaignRun& run) { sum_s += simulated_s(campaign, run); },
-      [](const std::string&, std::size_t, std::size_t) {});
+  run_jobs(campaign, jobs, 1, [&](const CampaignRun& run) { sum_s += simulated_s(campaign, run); });
   return sum_s;
 }
 

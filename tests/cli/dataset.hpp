@@ -10,6 +10,7 @@
 
 #include <sim/output/campaign_folder.hpp>
 
+#include "campaign_runs.hpp"
 #include "program.hpp"
 
 namespace mckibben::cli {
@@ -31,9 +32,7 @@ inline constexpr const char* small_campaign =
 inline void begin(const fs::path& out, const domain::Campaign& campaign, std::size_t runs,
                   const std::vector<std::string>& formats = {}) {
   const output::CampaignFolder folder(out, campaign, formats, [](const std::string&) {});
-  run::run_jobs(
-      campaign, std::span(folder.jobs()).first(runs), 1, [&](const auto& run) { folder.put(run); },
-      [](const auto&, auto, auto) {});
+  run::run_jobs(campaign, std::span(folder.jobs()).first(runs), 1, [&](const auto& run) { folder.put(run); });
 }
 
 class Dataset : public InAFolder {

@@ -11,7 +11,8 @@
 #include <sim/diagnose/diagnosis.hpp>
 #include <sim/domain/campaign.hpp>
 #include <sim/domain/dataset.hpp>
-#include <sim/run/campaign.hpp>
+
+#include "campaign_runs.hpp"
 
 namespace mckibben::diagnose {
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <sim/diagnose/experiment.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/identify/diagnosis.hpp>
 #include <sim/identify/held_out.hpp>
 #include <sim/identify/screen.hpp>

@@ -15,8 +15,8 @@
 #include <sim/data/amount.hpp>
 #include <sim/input/campaign_file.hpp>
 #include <sim/run/batch.hpp>
-#include <sim/run/campaign.hpp>
-#include <sim/run/simulate.hpp>
+
+#include "campaign_runs.hpp"
 
 namespace mckibben::run {
 namespace {
@@ -32,8 +32,6 @@ domain::Campaign small_campaign() {
   campaign.noise.encoder_jitter = 1e-3;
   return campaign;
 }
-
-const ProgressHook no_progress = [](const std::string&, std::size_t, std::size_t) {};
 
 std::vector<double> ratios(const domain::Campaign& campaign, const CampaignJob& job) {
   return measured(campaign, run_job(campaign, job)).contraction_ratio;
@@ -161,13 +159,10 @@ TEST(Campaign, RunsDoNotDependOnThreads) {
   std::mutex mutex;
   std::map<std::string, std::vector<double>> one, four;
   for (auto [threads, found] : {std::pair{1u, &one}, std::pair{4u, &four}})
-    run_jobs(
-        campaign, jobs, threads,
-        [&](const CampaignRun& run) {
-          const std::scoped_lock lock(mutex);
-          (*found)[run.job.id] = measured(campaign, run).contraction_ratio;
-        },
-        no_progress);
+    run_jobs(campaign, jobs, threads, [&](const CampaignRun& run) {
+      const std::scoped_lock lock(mutex);
+      (*found)[run.job.id] = measured(campaign, run).contraction_ratio;
+    });
   EXPECT_EQ(one.size(), 8u);
   EXPECT_EQ(one, four);
 }
@@ -178,7 +173,7 @@ TEST(Campaign, AFailureIsKeptWithItsRun) {
   campaign.rig.muscle.stop_damping_s_per_m = 0.0;
   campaign.loads_kg = {400.0};
   const auto run = run_job(campaign, jobs_of(campaign)[0]);
-  EXPECT_NE(run.failure.find("integration failed"), std::string::npos);
+  EXPECT_NE(run.recording.failure.find("integration failed"), std::string::npos);
 }
 
 // In a process of its own: asking to stop cannot be taken back.
@@ -193,7 +188,7 @@ TEST(CampaignDeathTest, CtrlCEndsItOnceThoseUnderWayHaveEnded) {
       if (++ended == 3) std::raise(SIGINT);
     };
     try {
-      run_jobs(campaign, jobs_of(campaign), 1, finished, no_progress);
+      run_jobs(campaign, jobs_of(campaign), 1, finished);
     } catch (const Interrupted&) {
       std::_Exit(ended);
     }

@@ -10,6 +10,8 @@
 #include <sim/run/draws.hpp>
 #include <sim/run/ensemble.hpp>
 
+#include "campaign_runs.hpp"
+
 namespace mckibben::run {
 namespace {
 

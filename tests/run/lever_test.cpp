@@ -6,10 +6,11 @@
 
 #include <plant/signals.hpp>
 #include <sim/domain/columns.hpp>
-#include <sim/run/campaign.hpp>
 #include <sim/run/compare.hpp>
 #include <sim/run/follow.hpp>
 #include <sim/run/track.hpp>
+
+#include "campaign_runs.hpp"
 
 namespace mckibben::run {
 namespace {
@@ -168,7 +169,7 @@ TEST(Lever, ItsDataSetHoldsItsAngle) {
   triangle.period_s = 3.0;
   campaign.currents = {{"triangle", 3.0, triangle}};
   const CampaignRun run = run_job(campaign, jobs_of(campaign).front());
-  ASSERT_EQ(run.failure, "");
+  ASSERT_EQ(run.recording.failure, "");
   const domain::Run table = measured(campaign, run);
   EXPECT_TRUE(table.contraction_ratio.empty());
   ASSERT_EQ(table.angle_rad.size(), run.recording.samples.size());

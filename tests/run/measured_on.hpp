@@ -9,8 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <sim/data/plausible.hpp>
-#include <sim/run/campaign.hpp>
 #include <sim/run/look.hpp>
+
+#include "campaign_runs.hpp"
 
 namespace mckibben::run {
 

@@ -8,9 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sim/run/campaign.hpp>
-#include <sim/run/simulate.hpp>
-
+#include "campaign_runs.hpp"
 #include "switched_on.hpp"
 
 namespace mckibben::run {
@@ -191,12 +189,9 @@ TEST(RunBatch, ARunOfACampaignDoesNotDependOnWhatElseIsAskedFor) {
   const auto jobs = jobs_of(campaign);
   const auto last = [&](std::span<const CampaignJob> asked) {
     Recording recording;
-    run_jobs(
-        campaign, asked, 1,
-        [&](const CampaignRun& run) {
-          if (run.job.id == jobs.back().id) recording = run.recording;
-        },
-        [](const auto&, auto, auto) {});
+    run_jobs(campaign, asked, 1, [&](const CampaignRun& run) {
+      if (run.job.id == jobs.back().id) recording = run.recording;
+    });
     return recording;
   };
   EXPECT_EQ(furthest(last(jobs), last(std::span(jobs).last(1))), 0.0);
