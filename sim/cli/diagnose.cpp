@@ -53,7 +53,7 @@ void write_plan(const std::string& plan, const domain::Dataset& data, const diag
 std::string what_mends(const domain::Dataset& data, const diagnose::Diagnosis& found) {
   std::vector<std::string> lines;
   for (const diagnose::BenchFault& fault : found.bench) {
-    if (fault.write.empty()) continue;
+    if (!fault.can_be_written() || fault.size.holds(0.0)) continue;
     const auto run = std::ranges::find(data.runs, fault.runs.front(), &domain::Run::id);
     if (!fault.of_loads() || fault.runs.size() != 1 || data.parts_of_a_run)
       return fmt::format("write in {} what the table has for it", data.path.string());

@@ -96,7 +96,8 @@ struct Moved {
   bool exceeds() const { return std::abs(deviations) > thresholds.parameter.most_deviations && !of_effect(); }
   /// Worth telling: further than a data sheet promises, or the size of an effect that is another one.
   bool notable() const {
-    return std::abs(deviations) > thresholds.parameter.notable || (of_effect() && !fitted.holds(nominal));
+    return std::abs(deviations) > (of_effect() && !fitted.holds(nominal) ? thresholds.parameter.shown
+                                                                         : thresholds.parameter.notable);
   }
   bool of_effect() const { return fitted.name.find("effects.") != std::string::npos; }
 };
@@ -221,6 +222,8 @@ struct BenchFault {
   std::vector<double> loads_kg{};  ///< of a fault of loads: those of `runs`, as estimated
 
   bool of_loads() const { return name == "load_label" || name == "loads_differ"; }
+  /// No key of a data set takes a drift out.
+  bool can_be_written() const { return !write.empty() && name != "drifts_differ"; }
 };
 
 /// The error of a reading beside the one that is judged, on the runs held out; in its SI unit.

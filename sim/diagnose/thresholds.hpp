@@ -55,6 +55,7 @@ struct ParameterThresholds {
   double unknown_usual = 3.0;    ///< or so many of those above, if that is more
   double most_deviations = 3.0;  ///< of its prior: further it is not the rig that was described
   double notable = 1.0;          ///< deviations that are worth telling
+  double shown = 0.05;           ///< of an effect that is known: fewer are written as 0.0
   double least_size = 0.01;      ///< of an effect's typical size: as good as absent, and may be stiff
   double sealed_leak = 0.01;     ///< of a sealed muscle's gas: what a typical leak takes in a run
   int law_places = 12;           ///< over the range of a number of one's own law, from which fits begin

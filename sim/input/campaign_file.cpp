@@ -131,6 +131,22 @@ void check_repeats(const YamlFile& file, const Campaign& campaign, Problems& pro
                    fmt::format("repeats = {}: without vary at most {}", given->text, most_repeats));
 }
 
+/// A simulation without noise, as a diagnosis makes, stays at the edge of a band that noise shakes it from.
+void warn_of_noise_in_band(const YamlFile& file, const Campaign& campaign, Problems& problems) {
+  const plant::Valve& valve = campaign.rig.valve;
+  const Node* noise = file.root.find("noise");
+  if (noise == nullptr || !valve.is_regulator() || valve.dead_band_Pa <= 0.0 ||
+      campaign.noise.current_mA <= 0.0)
+    return;
+  problems.warning(
+      file.source, noise->find("current")->place,
+      fmt::format(
+          "noise of the command shakes the regulator out of the edges of its dead band of {:.3g} mbar; "
+          "no model of a diagnosis does that, and creep, drifts or a leak may be found in its place: "
+          "leave one of the two out of data in which effects are to be found",
+          1e3 * valve.dead_band_Pa / plant::Pa_per_bar));
+}
+
 /// What a campaign's rig has besides its base is there to be found.
 plant::Rig known_rig(const YamlFile& file, const plant::Rig& rig) {
   const Node* node = file.root.find("rig");
@@ -168,6 +184,7 @@ Campaign read_campaign(Source source, std::vector<Problem>* warnings) {
     }
     check_currents(file, campaign, problems);
     check_repeats(file, campaign, problems);
+    warn_of_noise_in_band(file, campaign, problems);
   }
   problems.raise(campaign.inputs, warnings);
   campaign.known = known_rig(file, campaign.rig);

@@ -12,6 +12,7 @@
 #include <sim/output/axes.hpp>
 #include <sim/output/run_results.hpp>
 #include <sim/output/svg.hpp>
+#include <sim/run/remarks.hpp>
 
 namespace mckibben::output {
 namespace {
@@ -106,7 +107,8 @@ std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison
   const plant::Channel& followed =
       plant::channel_of(channels, scenario.rig.has_angle() ? "angle" : "contraction_ratio");
   const double page_size = followed.signal->unit.page_size, tick_s = scenario.rig.tick_s;
-  const Legend legend = make_legend(scenario, true);
+  const bool with_target = !run::follows_nothing(scenario, comparison);
+  const Legend legend = make_legend(scenario, with_target);
   const double first_px = legend.bottom_px + 30.0;
   const double height = first_px + static_cast<double>(tasks.size()) * (plot_height + plot_gap) + 10.0;
   const double width = plot_left + plot_width + plot_right;
@@ -126,8 +128,9 @@ std::string tracking_svg(const domain::Scenario& scenario, const run::Comparison
                                  values.high, static_cast<double>(ticks) * tick_s);
     svg += axes(panel, title_of(comparison, tasks[r]) +
                            (scenario.rig.has_angle() ? ": joint angle [deg]" : ": contraction ratio"));
-    svg += line(panel, ticks, tick_s, "#000000", "none", 2.2,
-                [&](std::size_t k) { return target.values[k] / page_size; });
+    if (with_target)
+      svg += line(panel, ticks, tick_s, "#000000", "none", 2.2,
+                  [&](std::size_t k) { return target.values[k] / page_size; });
     for (std::size_t c = 0; c < scenario.controllers.size(); ++c) {
       const auto& samples = comparison.runs[tasks[r].first + c].recording.samples;
       svg += line(panel, samples.size(), tick_s, colour_of(c), dash_of(c), 1.4,

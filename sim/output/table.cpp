@@ -174,6 +174,32 @@ std::string lines_of_one(const domain::Scenario& scenario, const run::Comparison
   return grid.text() + footnotes(comparison.runs);
 }
 
+/// How far the loads move under given commands, where nothing is to follow a target.
+std::string lines_of_moves(const domain::Scenario& scenario, const run::Comparison& comparison) {
+  const bool angle = scenario.rig.has_angle();
+  const std::string unit = angle ? "_deg" : "_mm";
+  Grid grid({"load_kg", "controller", "lowest" + unit, "highest" + unit, "travel" + unit, "final" + unit,
+             "air_g", "at_limit_%"},
+            2);
+  for (const auto& run : comparison.runs) {
+    const std::vector<std::string> head{domain::write_kg(run.load_kg), run.controller};
+    if (!run.failure.empty() || run.recording.samples.empty()) {
+      grid.add(head, "no result");
+      continue;
+    }
+    const auto place = [&](const plant::Sample& sample) {
+      return angle ? sample.angle_rad / plant::degree_rad
+                   : 1e3 * scenario.rig.muscle.rest_length_m * sample.state.joint.contraction_ratio;
+    };
+    const auto [low, high] = std::ranges::minmax(run.recording.samples | std::views::transform(place));
+    const auto shown = [](double value) { return fmt::format("{:.2f}", value); };
+    grid.add(head, {shown(low), shown(high), shown(high - low), shown(place(run.recording.samples.back())),
+                    cell(run.metrics.air_kg, 1e3, 3),
+                    percent(run.limits ? std::optional(run::share_at_limit(run)) : std::nullopt)});
+  }
+  return grid.text();
+}
+
 /// What the rmse is over all runs of each controller.
 std::string spreads(const domain::Scenario& scenario, const run::Comparison& comparison) {
   const bool angle = scenario.rig.has_angle();
@@ -249,6 +275,9 @@ std::string heading(const domain::Scenario& scenario, const run::Comparison& com
                        scenario.name, plural(comparison.runs.size(), "run"), scenario.duration_s,
                        counted.empty() ? "" : "; errors count", counted);
   }
+  if (run::follows_nothing(scenario, comparison))
+    return fmt::format("{}: {}, {:g} s each; commands are given, and there is no target\n", scenario.name,
+                       plural(comparison.runs.size(), "run"), scenario.duration_s);
   return fmt::format(
       "{}: {} x {}, {:g} s each; errors are {}{}\n", scenario.name, plural(scenario.loads_kg.size(), "load"),
       plural(scenario.controllers.size(), "controller"), scenario.duration_s,
@@ -279,6 +308,8 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
     const bool both = !given.empty() && !followed.empty();
     if (!given.empty()) text += (both ? "\nunder given currents\n" : "\n") + given;
     if (!followed.empty()) text += (both ? "\nunder controllers\n" : "\n") + followed;
+  } else if (run::follows_nothing(scenario, comparison)) {
+    text += "\n" + lines_of_moves(scenario, comparison);
   } else {
     text += "\n" + lines_of_one(scenario, comparison) +
             section("rmse over the loads (spread: highest less lowest)", spreads(scenario, comparison));

@@ -275,6 +275,17 @@ double Batch::read_ratio(std::size_t rig) const {
   return static_cast<double>(members_[rig].counts) * run::contraction_per_count(rig_at(rig));
 }
 
+void Batch::set_jitter(const std::vector<double>& ratios) {
+  if (ratios.size() != rigs())
+    throw py::value_error(fmt::format("jitter: {} numbers for {} rigs", ratios.size(), rigs()));
+  for (std::size_t i = 0; i < rigs(); ++i) members_[i].jitter = ratios[i];
+}
+std::vector<double> Batch::jitter() const {
+  std::vector<double> ratios;
+  for (const Member& member : members_) ratios.push_back(member.jitter);
+  return ratios;
+}
+
 void Batch::follow(Part& part, std::span<const double> commands, Rows& rows) {
   for (std::size_t k = 0; k < rows.time_s.size(); ++k) {
     if (run::interrupted()) throw run::Interrupted();
@@ -306,7 +317,8 @@ void Batch::step(Part& part, std::span<const double> commands, long k) {
   for (std::size_t place = 0; place < part.rigs.size(); ++place) {
     if (part.rigs[place] == nobody) continue;
     Member& member = members_[part.rigs[place]];
-    member.counts = member.counter->count(part.rides->rider(place).now.reading.wheel_m);
+    member.counts = member.counter->count(part.rides->rider(place).now.reading.wheel_m +
+                                          member.jitter * member.hung.rig.muscle.rest_length_m);
   }
 }
 

@@ -33,6 +33,9 @@ class Batch {
   static std::unique_ptr<Batch> unpickled(const py::tuple& state);
 
   py::array_t<double> contraction_ratio() const;
+  /// As Ride's, one for each rig. Throws py::value_error where these are not as many.
+  void set_jitter(const std::vector<double>& ratios);
+  std::vector<double> jitter() const;
   py::array_t<double> state() const;
   py::dict failures() const;
   std::size_t rigs() const { return members_.size(); }
@@ -47,6 +50,7 @@ class Batch {
     std::size_t part = 0, place = 0;
     std::optional<plant::PositionReader> counter{};
     std::int64_t counts = 0;
+    double jitter = 0.0;  ///< of the position that is counted after a step, as a contraction ratio
   };
   /// As many rigs as fill a batch's lanes.
   struct Part {

@@ -63,10 +63,12 @@ class Ride {
   std::optional<double> load_kg() const { return load_kg_; }
   plant::CommandUnit command_unit() const { return rig_->command_unit(); }
 
+  double jitter = 0.0;  ///< of the position that is counted after a step, as a contraction ratio
+
  private:
   ride::Drive with(const Given& given, const ride::Drive& before) const;
   void advance();
-  void look() { counts_ = counter_.count(ride_.reading().wheel_m); }
+  void look() { counts_ = counter_.count(ride_.reading().wheel_m + jitter * rig_->muscle.rest_length_m); }
   double time_after(long ticks) const {
     return begin_s_ + static_cast<double>(ticks_ + ticks) * rig_->tick_s;
   }

@@ -210,6 +210,9 @@ void add_rides(py::module_& module) {
           "the load [N], or a torque [N m]. Outputs: contraction_ratio or angle_rad, then muscle_pressure_Pa "
           "and force_N of the cord, of a pair tension_1_N, tension_2_N. Raises ValueError where there are no "
           "slopes.")
+      .def_readwrite("jitter", &Ride::jitter,
+                     "Shakes the position before it is counted, as a contraction ratio [1]; for noise set it "
+                     "before each step.")
       .def_property_readonly("reading", &Ride::shown, "What instruments show now.")
       .def_property_readonly(
           "time_s", [](const Ride& ride) { return ride.shown().time_s; }, "Now [s].")

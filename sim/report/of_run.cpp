@@ -150,7 +150,7 @@ std::string heads(const Scenario& scenario) {
 /// Errors, a row for each target and load; the smallest of a row is marked.
 std::string table(const Scenario& scenario, const Comparison& comparison) {
   const std::size_t columns = scenario.controllers.size();
-  if (columns == 0) return "";
+  if (columns == 0 || run::follows_nothing(scenario, comparison)) return "";
   std::string html = fmt::format(
       "<table><caption>Root mean square error{}{}{}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
       of_angle(scenario) ? " of the joint angle, deg" : ", " + length_unit_html(),
@@ -263,7 +263,10 @@ Group group_of(const Scenario& scenario, const Comparison& comparison, const run
   return group;
 }
 
-PlotsOf plots_for(const Scenario& scenario) {
+PlotsOf plots_for(const Scenario& scenario, const Comparison& comparison) {
+  if (run::follows_nothing(scenario, comparison))
+    return of_angle(scenario) ? PlotsOf{.key = "angle", .title = "Joint angle"}
+                              : PlotsOf{.title = "Contraction"};
   if (scenario.rig.lever() != nullptr)
     return {
         .key = "angle", .title = "Joint angle", .given = "target", .error = "Joint angle: angle less target"};
@@ -296,7 +299,7 @@ std::string report_html(const Scenario& scenario, const Comparison& comparison) 
                     .lengths = !of_angle(scenario),
                     .rig = scenario.rig,
                     .gauge = !pair && scenario.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
-                    .plots = plots_of(scenario.rig, plots_for(scenario)),
+                    .plots = plots_of(scenario.rig, plots_for(scenario, comparison)),
                     .loops = loops_of(scenario.rig, {.pair = pair})};
   for (const run::Task& task : tasks_of(scenario))
     if (is_drawn(runs_of(scenario, comparison, task)))

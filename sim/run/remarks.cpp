@@ -209,9 +209,17 @@ std::string reading_warning(const TrackedRun& run, const controllers::Settings& 
       rig.has_angle() ? "deg" : "mm", too_high > 0.0 ? "high" : "low", keys);
 }
 
+bool follows_nothing(const domain::Scenario& scenario, const Comparison& comparison) {
+  return !scenario.controllers.empty() && std::ranges::all_of(scenario.controllers, domain::is_given) &&
+         std::ranges::all_of(comparison.targets, [](const Wanted& target) {
+           return std::ranges::all_of(target.values, [](double value) { return value == 0.0; });
+         });
+}
+
 std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
                           const plant::Rig& rig) {
-  if (rig.has_angle() || !run.failure.empty() || (run.metrics.swings && !limit_warning(run, rig).empty()))
+  if (rig.has_angle() || domain::is_given(settings) || !run.failure.empty() ||
+      (run.metrics.swings && !limit_warning(run, rig).empty()))
     return "";
   std::vector<double> contraction;
   for (const Sample& sample : run.recording.samples)

@@ -25,6 +25,9 @@ std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std
 /// know it exactly, and the key to write. Empty if there are none.
 std::string knowing_words(const domain::Scenario& scenario);
 
+/// Whether no target was asked for: all commands are given, and the target was left out.
+bool follows_nothing(const domain::Scenario& scenario, const Comparison& comparison);
+
 /// From when on errors count: ", from 1 s on"; empty where it is from the beginning.
 std::string counted_words(const domain::Scenario& scenario, const Comparison& comparison);
 

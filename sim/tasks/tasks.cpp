@@ -189,7 +189,8 @@ Prepared prepare(domain::Dataset& data, const std::vector<std::string>& hypothes
       identify::LoadDoubt doubt{{}, data::text_of(data, finding)};
       for (const std::size_t run : finding.runs) doubt.runs.push_back(data.runs[run].id);
       prepared.of_loads.push_back(std::move(doubt));
-      finding.message = "the load does not fit the motion; the diagnosis estimates it";
+      finding.message =
+          "the load does not fit the motion (`check` says more); the diagnosis looks for it with the rest";
     }
     at_once.push_back(data::text_of(data, finding));
   }

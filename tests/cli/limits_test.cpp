@@ -64,6 +64,21 @@ TEST(Report, AGivenCurrentHasNoErrorForAHeadline) {
   EXPECT_TRUE(lacks(page, "triangle_current: root mean square error"));
 }
 
+TEST(Report, WithoutATargetTravelsStandWhereErrorsDo) {
+  const Scratch scratch;
+  write_text(scratch / "given.yaml",
+             "schema: mckibben-scenario/1\nloads: [11.138 kg, 16.138 kg]\nduration: 8 s\n"
+             "controllers: [{kind: sine_current, low: 6 mA, high: 12 mA, period: 2 s}]\n");
+  const Said said = mckibben("run given.yaml", scratch);
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_TRUE(holds(said.out, "commands are given, and there is no target", "travel_mm"));
+  EXPECT_TRUE(lacks(said.out, "rmse"));
+  EXPECT_TRUE(lacks(said.err, "oscillates"));
+  const std::string page = read_text(scratch / "out/given/report.html");
+  EXPECT_TRUE(holds(page, "sine_current follows no target: it moves 11.138 kg by "));
+  EXPECT_TRUE(lacks(page, "Root mean square error", "contraction less target"));
+}
+
 TEST(Limits, OfARigInVoltsAreInVoltsAndSoIsAllThatIsWritten) {
   const Scratch scratch;
   const std::string rig =

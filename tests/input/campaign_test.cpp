@@ -42,6 +42,29 @@ TEST(Campaign, ReadsEveryKindOfField) {
   EXPECT_EQ(campaign.inputs.size(), 2u);
 }
 
+TEST(Campaign, NoiseInTheDeadBandOfARegulatorIsWarnedOf) {
+  const auto warned = [](const std::string& band, const std::string& noise) {
+    std::vector<Problem> warnings;
+    read_campaign(
+        Source("c.yaml",
+               "schema: mckibben-campaign/1\n"
+               "rig: {valve: {kind: regulator, zero_command: 0 V, span_command: 10 V, "
+               "zero_pressure: 0 bar, span_pressure: 6 bar, time_constant: 0.1 s" +
+                   band + "}, dac: {largest_command: 10 V}}\nloads: [11 kg]\n" +
+                   "currents: [{duration: 2 s, current: {kind: sine_current, low: 2 V, high: 8 V, period: 2 "
+                   "s}}]\n" +
+                   noise,
+               MCKIBBEN_SOURCE_DIR),
+        &warnings);
+    return std::ranges::count_if(warnings, [](const Problem& one) {
+      return one.message.find("dead band of 12 mbar") != std::string::npos && one.place.line == 5;
+    });
+  };
+  EXPECT_EQ(warned(", dead_band: 12 mbar", "noise: {current: 5 mV}\n"), 1);
+  EXPECT_EQ(warned("", "noise: {current: 5 mV}\n"), 0);
+  EXPECT_EQ(warned(", dead_band: 12 mbar", "noise: {encoder_jitter: 5e-5}\n"), 0);
+}
+
 TEST(Campaign, StepsBeginAtTheValvesZeroCurrent) {
   const Campaign campaign = campaign_of(
       "schema: mckibben-campaign/1\nrig: {valve: {zero_command: 1 mA}}\nloads: [11 kg]\n"

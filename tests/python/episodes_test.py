@@ -54,6 +54,17 @@ class Episodes(unittest.TestCase):
             noise = env.scenario([{"kind": "pid"}], noise={"encoder_jitter": 0.0}).to_dict()["noise"]
             self.assertEqual(noise["encoder_jitter"], 0.0)
 
+    def test_what_is_shaken_is_counted_after(self):
+        one, many = mckibben.Env(duration_s=1.2, jitter=0.002), mckibben.VectorEnv(2, duration_s=1.2, jitter=0.002)
+        one.reset(seed=1), many.reset(seed=1)
+        true = [one.step([0.0])[4]["true_contraction_ratio"] for _ in range(60)]
+        for _ in range(60):
+            many.step(numpy.zeros((2, 1)))
+        read, per_count = one.history["contraction_ratio"], one.rig.contraction_per_count
+        numpy.testing.assert_allclose(read / per_count, numpy.round(read / per_count), atol=1e-6)
+        self.assertTrue(0.001 < numpy.std(read - true) < 0.003, numpy.std(read - true))
+        numpy.testing.assert_allclose(many.episodes[0].history["contraction_ratio"], read, atol=1e-12)
+
     def test_others_can_have_its_target(self):
         for keys, controller in (({"rig": mckibben.env.drawn_rig, "target": mckibben.env.drawn_target}, {"kind": "pid"}),
                                  ({"rig": "thesis_pair"}, {"kind": "pid"})):

@@ -182,6 +182,7 @@ TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
   EXPECT_NE(swinging(4e-3).find("(it is 120 V)"), std::string::npos) << "at a limit elsewhere";
   run.metrics.swings = true;
   EXPECT_EQ(swinging(4e-3), "") << "its limits say so";
+  EXPECT_EQ(cycle_warning(run, wanted, controllers::SineCurrent{}, rig), "") << "it is asked to";
 }
 
 TEST(Remarks, ATuningMustBeatNoFeedback) {

@@ -80,7 +80,7 @@ class Env(Base):
         function that makes one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s, of a
         pair from -15 to 15 deg. `loads_kg`: a load, or two between which each episode draws its
         own; if left out, three quarters to one and a half of the rig's `usual_load_kg`.
-        `jitter`: root mean square of what shakes the reading, as a contraction ratio [1] or an angle [rad].
+        `jitter`: root mean square of what shakes the position before it is counted, as a contraction ratio [1] or an angle [rad].
         Nothing is rendered: plot `history`. Raises InputError, ValueError."""
         _no_rendering(render_mode)
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
@@ -148,6 +148,7 @@ class Env(Base):
         commands = self.episode.commands(actions_of(action, self.action_space.shape).tolist())
         info = dict(zip(self.task.command_names(self.episode.rig.command_unit), commands))
         terminated = False
+        self.ride.jitter = self.episode.shake()
         try:
             self.ride.step(**dict(zip(("command", "opposite_command"), commands)))
         except NumericalFailure as failure:
@@ -259,6 +260,7 @@ class VectorEnv(VectorBase):
         actions = actions_of(actions, (self.num_envs, 1)).tolist()
         waiting, infos = self.ended.copy(), {}
         commands = numpy.array([one.commands(action)[0] for one, action in zip(self.episodes, actions)])
+        self.batch.jitter = [0.0 if waits else one.shake() for waits, one in zip(waiting, self.episodes)]
         self.batch.step(commands)
         rewards = numpy.zeros(self.num_envs)
         terminations, truncations = (numpy.zeros(self.num_envs, dtype=bool) for _ in range(2))

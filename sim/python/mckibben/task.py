@@ -205,8 +205,7 @@ class Episode:
     def scenario(self, controllers, **keys):
         """The same rig, load, target, time and jitter for these controllers."""
         if self.task.jitter:
-            ratio = self.task.jitter / (self.rad if self.task.pair else 1.0)
-            keys = {"noise": {"encoder_jitter": ratio}, **keys}
+            keys = {"noise": {"encoder_jitter": self.jitter_ratio()}, **keys}
         return self.task.scenario(self.rig, [self.load_kg], self.wish, controllers, **keys)
 
     def columns(self):
@@ -217,7 +216,7 @@ class Episode:
         return {"columns": {"angle": {"column": "angle_rad", "unit": "count", "factor": 1.0 / per_count}}}
 
     def begin(self, counted):
-        self.last = self.at_rest = self.read(counted)
+        self.last = self.at_rest = counted
         self.rows = []
         return self.seen(0.0)
 
@@ -260,7 +259,7 @@ class Episode:
     def arrive(self, counted):
         """A tick later: what is seen, reward, whether it was the last tick."""
         self.tick += 1
-        before, self.last = self.last, self.read(counted)
+        before, self.last = self.last, counted
         reward = -100.0 * abs(self.last - self.wanted[self.tick])
         self.rows.append((self.tick * self.tick_s, self.wanted[self.tick], self.last, *self.given, reward))
         return self.seen((self.last - before) / self.tick_s), reward, self.over()
@@ -272,9 +271,12 @@ class Episode:
     def over(self):
         return self.tick + 1 >= len(self.wanted)
 
-    def read(self, counted):
-        jitter = self.task.jitter
-        return counted + jitter * self.random.standard_normal() if jitter else counted
+    def shake(self):
+        """By what the position is off that is counted next, as a contraction ratio."""
+        return self.jitter_ratio() * self.random.standard_normal() if self.task.jitter else 0.0
+
+    def jitter_ratio(self):
+        return self.task.jitter / (self.rad if self.task.pair else 1.0)
 
     def seen(self, speed_per_s):
         return [self.last, speed_per_s, self.wanted[self.tick], *self.action]
