@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -64,6 +65,10 @@ std::optional<Weighed> weigh(const plant::Rig& rig, const plant::Braid& braid, s
   return Weighed{index, run.load_kg, upper_median(std::move(both ? compared_kg : plain_kg))};
 }
 
+Finding doubt(std::vector<std::size_t> runs, std::string message) {
+  return {"load", std::move(runs), std::move(message), Severity::doubtful};
+}
+
 /// Runs with a load, or those without.
 std::vector<Weighed> weigh(const domain::Dataset& data, const std::vector<Expected>& expected, bool loaded) {
   const plant::Braid braid(data.rig.muscle);
@@ -88,6 +93,12 @@ std::vector<std::size_t> runs_of(const std::vector<Weighed>& list) {
   return runs;
 }
 
+/// How far off what runs have in common, as a logarithm; infinite where one is no load.
+double far_off(const Weighed& one, double scale) {
+  return one.seems_kg > 0.0 && scale > 0.0 ? std::abs(std::log(one.seems_kg / one.label_kg / scale))
+                                           : std::numeric_limits<double>::infinity();
+}
+
 /// How well labels explain what runs seem to weigh.
 struct Fit {
   double scale = 1.0;   ///< common to all: another muscle, an effect
@@ -98,10 +109,7 @@ struct Fit {
 
 Fit fit_of(const std::vector<Weighed>& list) {
   Fit fit{.scale = common_ratio(list)};
-  for (const Weighed& one : list)
-    fit.spread = std::max(fit.spread, one.seems_kg > 0.0 && fit.scale > 0.0
-                                          ? std::abs(std::log(one.seems_kg / one.label_kg / fit.scale))
-                                          : std::numeric_limits<double>::infinity());
+  for (const Weighed& one : list) fit.spread = std::max(fit.spread, far_off(one, fit.scale));
   return fit;
 }
 
@@ -158,34 +166,29 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
 bool all_are_off(const std::vector<Weighed>& list, const Weighed& one) {
   constexpr double as_well = 0.5;
   const auto off_kg = [](const Weighed& each) { return each.seems_kg - each.label_kg; };
-  bool others = false;
-  for (const Weighed& other : list) {
-    if (other.label_kg == one.label_kg) continue;
-    others = true;
-    if (!(off_kg(other) / off_kg(one) > as_well)) return false;
-  }
-  return others;
+  const auto is_other = [&](const Weighed& each) { return each.label_kg != one.label_kg; };
+  const auto agrees = [&](const Weighed& each) {
+    return !is_other(each) || off_kg(each) / off_kg(one) > as_well;
+  };
+  return std::ranges::any_of(list, is_other) && std::ranges::all_of(list, agrees);
 }
 
 /// Single loads that are a tenth or a thousandth of what hung, or ten or a thousand times that, beside
 /// others that are right. What all runs are off by alike is no misplaced point.
 std::optional<Finding> misplaced_points(const domain::Dataset& data, const std::vector<Weighed>& list) {
   const double scale = common_ratio(list);
-  Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
+  Finding found = doubt({}, "");
   for (const Weighed& one : list)
     for (const double factor : {10.0, 0.1, 1e3, 1e-3}) {
-      const double off = std::abs(std::log(one.seems_kg / one.label_kg / scale / factor));
-      if (one.seems_kg <= 0.0 || scale <= 0.0 || !(off < std::log(of_loads.sure_tenth))) continue;
+      if (!(far_off(one, scale * factor) < std::log(of_loads.sure_tenth))) continue;
       if (all_are_off(list, one))
-        return Finding{
-            "load", runs_of(list),
-            fmt::format(
-                "{} ({} kg) moves like {:.3g} kg, and the loads of all other runs seem {} than "
-                "written, too: is the zero of contraction what it reads at rest length, and is it this "
-                "muscle?",
-                data.runs[one.run].id, domain::write_kg(one.label_kg), one.seems_kg,
-                one.seems_kg > one.label_kg ? "heavier" : "lighter"),
-            Severity::doubtful};
+        return doubt(
+            runs_of(list),
+            fmt::format("{} ({} kg) moves like {:.3g} kg, and the loads of all other runs seem {} than "
+                        "written, too: is the zero of contraction what it reads at rest length, and is it "
+                        "this muscle?",
+                        data.runs[one.run].id, domain::write_kg(one.label_kg), one.seems_kg,
+                        one.seems_kg > one.label_kg ? "heavier" : "lighter"));
       found.runs.push_back(one.run);
       found.message +=
           fmt::format("{}{} ({} kg) moves like {:.3g} kg: write load: {:.6g} kg",
@@ -245,15 +248,14 @@ struct LoadLine {
 
 LoadLine line_through(const std::vector<Weighed>& list) {
   constexpr double same = 1e-6;
-  double sum = 0.0, of_label = 0.0, of_seems = 0.0, of_squares = 0.0, of_products = 0.0;
+  double sum = 0.0, of_label = 0.0, of_seems = 0.0, of_products = 0.0;  // weighted by 1 / label^2
   for (const Weighed& one : list) {
-    const double weight = 1.0 / (one.label_kg * one.label_kg);
-    sum += weight;
-    of_label += weight * one.label_kg;
-    of_seems += weight * one.seems_kg;
-    of_squares += weight * one.label_kg * one.label_kg;
-    of_products += weight * one.label_kg * one.seems_kg;
+    sum += 1.0 / (one.label_kg * one.label_kg);
+    of_label += 1.0 / one.label_kg;
+    of_seems += one.seems_kg / (one.label_kg * one.label_kg);
+    of_products += one.seems_kg / one.label_kg;
   }
+  const double of_squares = static_cast<double>(list.size());
   const double spread = sum * of_squares - of_label * of_label;
   if (spread < same * sum * of_squares) return {of_seems / of_label, 0.0};
   const double factor = (sum * of_products - of_label * of_seems) / spread;
@@ -297,7 +299,7 @@ std::optional<Alone> alone(const std::vector<Weighed>& list, bool exchangeable) 
     std::vector<Weighed> others = list;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     const Fit fit = fit_of(others);
-    const double off = std::abs(std::log(list[i].seems_kg / list[i].label_kg / fit.scale));
+    const double off = far_off(list[i], fit.scale);
     const double left = others.size() > 1 ? fit.spread : fit.misfit();
     if (list[i].seems_kg <= 0.0 || !(left < std::log(of_loads.others_agree)) ||
         !same_labels(in_order(others), others))
@@ -313,15 +315,12 @@ std::optional<Alone> alone(const std::vector<Weighed>& list, bool exchangeable) 
 
 Finding wrong_label(const domain::Dataset& data, const Alone& found) {
   const auto& [run, label_kg, seems_kg] = found.run;
-  return {.quantity = "load",
-          .runs = {run},
-          .message = fmt::format(
-              "{0} ({1} kg) moves like {2:.3g} kg, compared with the other runs, which agree "
-              "with their labels. Is this label wrong? Then load: {2:.3g} kg, roughly, as the rig "
-              "may lack an effect (`mckibben diagnose` weighs it beside what is missing). Or "
-              "was its encoder set to zero elsewhere?",
-              data.runs[run].id, domain::write_kg(label_kg), seems_kg / found.others.scale),
-          .severity = Severity::doubtful};
+  return doubt(
+      {run}, fmt::format("{0} ({1} kg) moves like {2:.3g} kg, compared with the other runs, which agree with "
+                         "their labels. Is this label wrong? Then load: {2:.3g} kg, roughly, as the rig may "
+                         "lack an effect (`mckibben diagnose` weighs both). Or was its encoder set to zero "
+                         "elsewhere?",
+                         data.runs[run].id, domain::write_kg(label_kg), seems_kg / found.others.scale));
 }
 
 /// Whether each run that got another label seems to weigh it.
@@ -345,7 +344,7 @@ std::optional<Finding> wrong_labels(const domain::Dataset& data, const std::vect
       one && (!exchangeable || !all_agree || one->others.misfit() < fit_of(ordered).misfit()))
     return wrong_label(data, *one);
   if (!exchangeable) return std::nullopt;
-  Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
+  Finding found = doubt({}, "");
   const double scale = all_agree ? common_ratio(ordered) : 1.0;
   std::string written, seems;
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -371,17 +370,16 @@ std::optional<Finding> unloaded(const domain::Dataset& data, const std::vector<W
                                 const std::vector<Weighed>& others) {
   const LoadLine line = others.empty() ? LoadLine{} : line_through(others);
   const double least_kg = of_loads.visible * domain::usual_load_kg(data.rig);
-  Finding found{.quantity = "load", .message = "", .severity = Severity::doubtful};
+  std::vector<std::size_t> runs;
   std::string seems;
   for (const Weighed& one : list) {
     const double kg = line.load_kg(one.seems_kg);
     if (!(line.factor > 0.0) || !(kg > least_kg)) continue;
-    found.runs.push_back(one.run);
+    runs.push_back(one.run);
     seems += fmt::format("{}{} moves like {:.3g} kg", seems.empty() ? "" : ", ", data.runs[one.run].id, kg);
   }
-  if (found.runs.empty()) return std::nullopt;
-  found.message = fmt::format("load = 0 kg, but {}: write the load that it carried", seems);
-  return found;
+  if (runs.empty()) return std::nullopt;
+  return doubt(std::move(runs), fmt::format("load = 0 kg, but {}: write the load that it carried", seems));
 }
 
 }  // namespace
