@@ -82,9 +82,15 @@ const domain::Quantity* named_quantity(std::string_view column, const ColumnMap&
 
 void check_units(const Source& source, const Node& map, Problems& problems) {
   for (const Node& entry : map.children) {
-    const Node* unit = entry.find("unit");
+    const Node *unit = entry.find("unit"), *as = entry.find("as");
     const domain::Quantity* quantity = domain::find_quantity(entry.key);
-    if (quantity == nullptr || unit == nullptr || unit->kind != Node::Kind::scalar) continue;
+    if (quantity == nullptr) continue;
+    if (as != nullptr && quantity->is_input() && as->text == plant::name_of(domain::Role::reading))
+      problems.error(source, as->place,
+                     fmt::format("as = reading: {} always drives the simulation; leave out as, or write as: "
+                                 "ignored",
+                                 entry.key));
+    if (unit == nullptr || unit->kind != Node::Kind::scalar) continue;
     const std::string problem = problem_of(*quantity, unit->text);
     if (!problem.empty()) problems.error(source, unit->place, "unit = " + problem);
   }

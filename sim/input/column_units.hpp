@@ -1,5 +1,5 @@
-// Units of the map `columns` of a data set:
-// whether they can be what they stand for, and tables brought to ours.
+// Units of the map `columns` of a data set: whether they can be what they stand for, and tables brought to
+// ours.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ using domain::ColumnMap, domain::ColumnPlace, domain::line_of;
 const domain::Quantity* named_quantity(std::string_view column, const ColumnMap& map,
                                        plant::CommandUnit commands);
 
-/// Checks the units of a map; `map` is the value of `columns`.
+/// Checks the units of a map, and that no input is called a reading; `map` is the value of `columns`.
 void check_units(const Source& source, const Node& map, Problems& problems);
 
 /// Checks that a file whose lines below the heading name units is read in these, where it is not a sensor's
