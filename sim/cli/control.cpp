@@ -394,7 +394,7 @@ void add_control(CLI::App& app, Asked& asked) {
       "  mckibben control my.yaml --device serial --port /dev/ttyACM0\n"
       "  mckibben control my.yaml --device comedi --port /dev/comedi0 --output 1:0 --encoder 8:10\n"
       "Writes dataset.yaml, rig.yaml and bench.csv, which replay and diagnose read, and control.json.\n"
-      "However it ends, the last command is the DAC's lowest, 0 mA: the valve vents.\n");
+      "However it ends, the last command is the DAC's lowest: the valve vents.\n");
 }
 
 }  // namespace mckibben::cli
