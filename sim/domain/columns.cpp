@@ -53,9 +53,12 @@ plant::GivenPressure ColumnMap::given_pressure(std::size_t muscle) const {
 }
 
 const std::vector<Quantity>& quantities(plant::CommandUnit commands) {
-  using enum plant::CommandUnit;
-  static const std::array all{all_quantities(mA), all_quantities(V), all_quantities(bar)};
-  return all[static_cast<std::size_t>(commands)];
+  static const auto all = [] {
+    std::map<plant::CommandUnit, std::vector<Quantity>> of;
+    for (const auto& [unit, name] : names(plant::CommandUnit{})) of.emplace(unit, all_quantities(unit));
+    return of;
+  }();
+  return all.at(commands);
 }
 
 const Quantity* find_quantity(std::string_view key, plant::CommandUnit commands) {
