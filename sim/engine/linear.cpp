@@ -1,4 +1,5 @@
 // Seeds state, memories and what is held, and reads off the slopes; see the header.
+#include <algorithm>
 #include <stdexcept>
 #include <tuple>
 
@@ -16,33 +17,33 @@ struct Remembered {
   double size = 1.0;
 };
 
-/// Of one side, in the order in which integrators carry them.
+/// Of one side, by their places among all that it remembers.
 std::vector<Remembered> memories_of(const plant::SideOf<double>& side, const std::string& suffix) {
-  std::vector<Remembered> all;
+  using plant::Effects;
+  std::vector<Remembered> all(plant::all_memories);
+  const Effects& effects = side.rig().effects;
+  std::size_t next = 0;
   const auto add = [&]<class E>(const E&) {
-    if constexpr (plant::Remembers<E>)
-      all.push_back({{std::string(E::name) + suffix, std::string(E::memory_unit)}});
-  };
-  const plant::Effects& effects = side.rig().effects;
-  std::apply([&](const auto&... effect) { (add(effect), ...); }, effects.all);
-  all.push_back({{"regulator_error" + suffix + "_Pa", "Pa"}});
-  const auto add_further = [&]<class E>(const E&) {
+    const std::string name(E::name);
+    if constexpr (plant::Remembers<E>) all[next++] = {{name + suffix, std::string(E::memory_unit)}};
     if constexpr (plant::RemembersMore<E>)
       for (std::size_t i = 0; i < E::further_memories; ++i)
-        all.push_back({{fmt::format("{}_{}{}", E::name, i + 2, suffix), std::string(E::memory_unit)}});
+        all[Effects::further_from<E> + i] = {
+            {fmt::format("{}_{}{}", name, i + 2, suffix), std::string(E::memory_unit)}};
   };
-  std::apply([&](const auto&... effect) { (add_further(effect), ...); }, effects.all);
-  const std::size_t laws = all.size();
-  all.resize(laws + plant::law_slots, {{"time" + suffix + "_s", "s"}});
+  std::apply([&](const auto&... effect) { (add(effect), ...); }, effects.all);
+  all[plant::regulator_memory] = {{"regulator_error" + suffix + "_Pa", "Pa"}};
+  std::fill_n(&all[Effects::from_laws], plant::law_slots, Remembered{{"time" + suffix + "_s", "s"}});
   for (const auto& law : effects.laws.list) {
     if (law.absent()) continue;
     for (std::size_t i = 0; i < law.text->memories.size(); ++i) {
       const auto& memory = law.text->memories[i];
-      all[laws + law.place + i] = {{law.text->name + "." + memory.name + suffix, memory.unit}, memory.size};
+      all[Effects::from_laws + law.place + i] = {{law.text->name + "." + memory.name + suffix, memory.unit},
+                                                 memory.size};
     }
   }
-  all.push_back({{"cord_stretch" + suffix + "_m", "m"}});
-  all.push_back({{"cord_end_speed" + suffix + "_m_per_s", "m s-1"}});
+  all[plant::cord_stretch] = {{"cord_stretch" + suffix + "_m", "m"}};
+  all[plant::cord_end_speed] = {{"cord_end_speed" + suffix + "_m_per_s", "m s-1"}};
   return all;
 }
 
@@ -56,7 +57,6 @@ class Linearising {
   Linearising(const plant::Plant& plant, const Flow& at, const plant::Held& held,
               const std::array<double, 2>& current_mA)
       : plant_(plant), current_mA_(current_mA) {
-    name();
     differentiate(at, held);
     drop_unused();
   }
@@ -64,30 +64,10 @@ class Linearising {
   Linear result;
 
  private:
+  using Index = Eigen::Index;
+
   static std::string suffix(int side) { return L::sides == 1 ? "" : "_" + std::to_string(side + 1); }
   const plant::SideOf<double>& side(int i) const { return i == 0 ? plant_.side() : *plant_.opposite(); }
-
-  void name() {
-    result.states = {{"contraction_ratio", "1"}, {"contraction_speed_per_s", "s-1"}};
-    result.outputs = {L::sides == 1 ? Signal{"contraction_ratio", "1"} : Signal{"angle_rad", "rad"}};
-    for (int i = 0; i < L::sides; ++i) {
-      const std::string s = suffix(i);
-      result.states.push_back({"valve_pressure" + s + "_Pa", "Pa"});
-      result.states.push_back({"muscle_pressure" + s + "_Pa", "Pa"});
-      result.states.push_back({"bristle" + s + "_m", "m"});
-      const auto named = [&](const std::string& text) { return in_unit(plant_.rig().command_unit(), text); };
-      result.inputs.push_back({named("current" + s + "_mA"), named("mA")});
-      result.inputs.push_back({named("current_speed" + s + "_mA_per_s"), named("mA s-1")});
-      result.outputs.push_back({"muscle_pressure" + s + "_Pa", "Pa"});
-      result.outputs.push_back({(L::sides == 1 ? "force" : "tension") + s + "_N", "N"});
-    }
-    for (int i = 0; i < L::sides; ++i)
-      for (const Remembered& memory : memories_of(side(i), suffix(i))) {
-        result.states.push_back(memory.signal);
-        sizes_.push_back(memory.size);
-      }
-    result.inputs.push_back(L::sides == 1 ? Signal{"load_force_N", "N"} : Signal{"torque_N_m", "N m"});
-  }
 
   void differentiate(const Flow& at, const plant::Held& held) {
     std::array<double, L::size> y;
@@ -107,36 +87,94 @@ class Linearising {
     if (!plant_.remembers()) now.memory_rates.fill(Number(0.0));
     const auto rates = plant_.template rates<L::sides>(seeds.state, now);
 
-    const auto states = static_cast<Eigen::Index>(L::steering);
-    const auto count = static_cast<Eigen::Index>(result.inputs.size());
-    const auto outputs = static_cast<Eigen::Index>(result.outputs.size());
-    result.state = Eigen::Map<const Eigen::VectorXd>(y.data(), states);
-    result.rate.resize(states);
-    result.output.resize(outputs);
+    constexpr Index states = L::steering, count = held_inputs + 1, outputs = 1 + 2 * L::sides;
+    result.states.resize(states);
+    result.inputs.resize(count);
+    result.state = result.rate = Eigen::VectorXd::Zero(states);
     result.input = Eigen::VectorXd::Zero(count);
-    result.A.resize(states, states);
+    result.output = Eigen::VectorXd::Zero(outputs);
+    result.A = Eigen::MatrixXd::Zero(states, states);
     result.B = Eigen::MatrixXd::Zero(states, count);
-    result.C.resize(outputs, states);
+    result.C = Eigen::MatrixXd::Zero(outputs, states);
     result.D = Eigen::MatrixXd::Zero(outputs, count);
-    const auto put = [&](Eigen::Index row, const Number& value, Eigen::VectorXd& values,
-                         Eigen::MatrixXd& by_state, Eigen::MatrixXd& by_input) {
-      values[row] = value.value;
-      by_state.row(row) = value.slopes.template head<L::steering>().transpose();
-      by_input.row(row).template head<held_inputs>() = value.slopes.template tail<held_inputs>().transpose();
-    };
-    Eigen::Index next = 0;
-    for_each_rate<L>(rates, now,
-                     [&](const Number& rate) { put(next++, rate, result.rate, result.A, result.B); });
-    next = 0;
-    const auto out = [&](const Number& value) { put(next++, value, result.output, result.C, result.D); };
-    out(position(seeds.state));
-    out(seeds.state.side.muscle_pressure_Pa);
-    out(now.cord_force_N());
-    if constexpr (L::sides == 2) {
-      out(seeds.state.opposite.muscle_pressure_Pa);
-      out(now.opposite.cord_force_N());
-    }
-    inputs_as_they_are_given(held);
+
+    state({"contraction_ratio", "1"}, seeds.state.joint.contraction_ratio, rates.joint.contraction_ratio);
+    state({"contraction_speed_per_s", "s-1"}, seeds.state.joint.contraction_speed_per_s,
+          rates.joint.contraction_speed_per_s);
+    output(L::sides == 1 ? Signal{"contraction_ratio", "1"} : Signal{"angle_rad", "rad"},
+           position(seeds.state));
+    of_side(0, seeds.state.side, rates.side, seeds.memory.side, now);
+    if constexpr (L::sides == 2)
+      of_side(1, seeds.state.opposite, rates.opposite, seeds.memory.opposite, now.opposite);
+    inputs_of_side(0, held, inputs);
+    if constexpr (L::sides == 2) inputs_of_side(1, held.opposite, inputs.opposite);
+    result.inputs.back() = L::sides == 1 ? Signal{"load_force_N", "N"} : Signal{"torque_N_m", "N m"};
+    const double arm_m = L::sides == 1 ? 1.0 : plant_.rig().joint.wheel_radius_m;  // of a torque
+    result.B(place(seeds.state.joint.contraction_speed_per_s), held_inputs) =
+        1.0 /
+        (plant_.moved_kg(at.state.joint.contraction_ratio) * arm_m * plant_.side().braid().rest_length_m());
+  }
+
+  void of_side(int i, const plant::SideState<Number>& at, const plant::SideState<Number>& rates,
+               const plant::SideMemory<Number>& memory, const plant::SideMoment<Number>& now) {
+    const std::string s = suffix(i);
+    state({"valve_pressure" + s + "_Pa", "Pa"}, at.valve_pressure_Pa, rates.valve_pressure_Pa);
+    state({"muscle_pressure" + s + "_Pa", "Pa"}, at.muscle_pressure_Pa, rates.muscle_pressure_Pa);
+    state({"bristle" + s + "_m", "m"}, at.bristle_m, rates.bristle_m);
+    output({"muscle_pressure" + s + "_Pa", "Pa"}, at.muscle_pressure_Pa);
+    output({(L::sides == 1 ? "force" : "tension") + s + "_N", "N"}, now.cord_force_N());
+    const std::vector<Remembered> remembered = memories_of(side(i), s);
+    for (std::size_t k = 0; k < remembered.size(); ++k)
+      state(remembered[k].signal, memory[k], now.memory_rates[k], remembered[k].size);
+  }
+
+  /// From the pressure that the valve follows to the current.
+  void inputs_of_side(int i, const plant::HeldSide& held, const plant::HeldSideOf<Number>& seeded) {
+    const auto named = [&](const std::string& text) { return in_unit(plant_.rig().command_unit(), text); };
+    const double current_mA = current_mA_[static_cast<std::size_t>(i)];
+    input({named("current" + suffix(i) + "_mA"), named("mA")}, seeded.reference_pressure_Pa, current_mA,
+          side(i).reference_slope_Pa_per_mA(current_mA));
+    input({named("current_speed" + suffix(i) + "_mA_per_s"), named("mA s-1")}, seeded.current_speed_mA_per_s,
+          held.current_speed_mA_per_s);
+  }
+
+  // One of each: its name, its value and its slopes.
+
+  void state(const Signal& name, const Number& seeded, const Number& rate, double size = 1.0) {
+    const Index at = place(seeded);
+    result.states[static_cast<std::size_t>(at)] = name;
+    result.state[at] = seeded.value;
+    result.rate[at] = rate.value;
+    sizes_[at] = size;
+    put(rate, at, result.A, result.B);
+  }
+
+  void output(const Signal& name, const Number& value) {
+    const auto at = static_cast<Index>(result.outputs.size());
+    result.outputs.push_back(name);
+    result.output[at] = value.value;
+    put(value, at, result.C, result.D);
+  }
+
+  /// `slope`: of what was seeded in its place.
+  void input(const Signal& name, const Number& seeded, double value, double slope = 1.0) {
+    const Index at = place(seeded) - L::steering;
+    result.inputs[static_cast<std::size_t>(at)] = name;
+    result.input[at] = value;
+    result.B.col(at) *= slope;
+    result.D.col(at) *= slope;
+  }
+
+  /// Of an unknown among all.
+  static Index place(const Number& unknown) {
+    Index at = 0;
+    unknown.slopes.maxCoeff(&at);
+    return at;
+  }
+
+  static void put(const Number& value, Index row, Eigen::MatrixXd& by_state, Eigen::MatrixXd& by_input) {
+    by_state.row(row) = value.slopes.template head<L::steering>().transpose();
+    by_input.row(row).template head<held_inputs>() = value.slopes.template tail<held_inputs>().transpose();
   }
 
   Number position(const plant::State<Number>& state) const {
@@ -145,30 +183,12 @@ class Linearising {
            (plant_.side().braid().rest_length_m() / plant_.rig().joint.wheel_radius_m);
   }
 
-  /// From the pressure that the valve follows to the current; and what lifts the load.
-  void inputs_as_they_are_given(const plant::Held& held) {
-    for (int i = 0; i < L::sides; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const double slope = side(i).reference_slope_Pa_per_mA(current_mA_[at]);
-      const Eigen::Index current = Eigen::Index{2} * i, its_speed = current + 1;
-      result.B.col(current) *= slope;
-      result.D.col(current) *= slope;
-      result.input[current] = current_mA_[at];
-      result.input[its_speed] = i == 0 ? held.current_speed_mA_per_s : held.opposite.current_speed_mA_per_s;
-    }
-    const double arm_m = L::sides == 1 ? 1.0 : plant_.rig().joint.wheel_radius_m;  // of a torque
-    result.B(1, held_inputs) =
-        1.0 / (plant_.moved_kg(result.state[0]) * arm_m * plant_.side().braid().rest_length_m());
-  }
-
   /// Memories of what is not at work neither move nor do anything.
   void drop_unused() {
     std::vector<Eigen::Index> kept;
     std::vector<Signal> names;
-    Eigen::VectorXd sizes = Eigen::VectorXd::Ones(L::steering);
     for (Eigen::Index i = 0; i < L::steering; ++i) {
       const bool memory = i >= L::states;
-      if (memory) sizes[i] = sizes_[static_cast<std::size_t>(i - L::states)];
       const bool used = !memory || result.rate[i] != 0.0 || !result.A.row(i).isZero(0.0) ||
                         !result.A.col(i).isZero(0.0) || !result.C.col(i).isZero(0.0);
       if (!used) continue;
@@ -176,17 +196,17 @@ class Linearising {
       names.push_back(result.states[static_cast<std::size_t>(i)]);
     }
     result.states = names;
-    const Eigen::VectorXd inverse = sizes.cwiseInverse();
-    result.A = (sizes.asDiagonal() * result.A * inverse.asDiagonal())(kept, kept).eval();
-    result.B = (sizes.asDiagonal() * result.B)(kept, Eigen::all).eval();
+    const Eigen::VectorXd inverse = sizes_.cwiseInverse();
+    result.A = (sizes_.asDiagonal() * result.A * inverse.asDiagonal())(kept, kept).eval();
+    result.B = (sizes_.asDiagonal() * result.B)(kept, Eigen::all).eval();
     result.C = (result.C * inverse.asDiagonal())(Eigen::all, kept).eval();
-    result.state = result.state.cwiseProduct(sizes)(kept).eval();
-    result.rate = result.rate.cwiseProduct(sizes)(kept).eval();
+    result.state = result.state.cwiseProduct(sizes_)(kept).eval();
+    result.rate = result.rate.cwiseProduct(sizes_)(kept).eval();
   }
 
   const plant::Plant& plant_;
   std::array<double, 2> current_mA_;
-  std::vector<double> sizes_;  ///< of memories
+  Eigen::VectorXd sizes_ = Eigen::VectorXd::Ones(L::steering);  ///< of states
 };
 
 }  // namespace
