@@ -92,18 +92,30 @@ py::dict solver_of(const Simulated& run) {
 
 using Pickled = std::tuple<std::string, std::string, std::string, double,
                            std::vector<std::pair<std::string, std::optional<double>>>, py::list, py::list,
-                           std::vector<std::pair<std::size_t, std::size_t>>, py::bytes>;
+                           std::vector<std::tuple<std::string, bool, std::size_t>>, py::bytes>;
 
-/// What can be seen of a run. A channel is its signal's place in the list of all, and its muscle.
+/// A channel by its name, whether it is an input (the supply's pressure may be given, or a tank's), and its
+/// muscle: where its signal stands among all may change.
+plant::Channel channel_of(const std::string& name, bool is_input, std::size_t muscle) {
+  for (const plant::Signal& signal : plant::signals) {
+    const plant::Channel channel{&signal, muscle};
+    const bool of_muscle = muscle == 0 || signal.part == plant::Part::muscle;
+    if (of_muscle && is_input == (signal.kind == plant::Kind::input) && channel.name() == name)
+      return channel;
+  }
+  throw py::value_error(name + ": this version has no such column");
+}
+
+/// What can be seen of a run.
 Pickled pickled_run(const Simulated& run) {
   py::list gaps, findings;
   for (const run::Gap& gap : run.gaps)
     gaps.append(py::make_tuple(gap.reading, gap.unit, gap.rmse, gap.largest, gap.mean, gap.rows));
   for (const auto& finding : run.recording->findings)
     findings.append(py::make_tuple(finding.name, finding.unit, finding.value));
-  std::vector<std::pair<std::size_t, std::size_t>> channels;
+  std::vector<std::tuple<std::string, bool, std::size_t>> channels;
   for (const plant::Channel& channel : run.channels)
-    channels.emplace_back(channel.signal - plant::signals.data(), channel.muscle);
+    channels.emplace_back(channel.name(), channel.signal->kind == plant::Kind::input, channel.muscle);
   const std::vector<double> target = run.target ? *run.target : std::vector<double>{};
   return {run.name,
           run.controller,
@@ -127,7 +139,8 @@ std::shared_ptr<Simulated> unpickled_run(const Pickled& state) {
     recording->findings.push_back({called, unit, value});
   }
   const auto run = std::make_shared<Simulated>(Simulated{recording, {}, name, controller, failure, load_kg});
-  for (const auto& [signal, muscle] : channels) run->channels.push_back({&plant::signals.at(signal), muscle});
+  for (const auto& [column, is_input, muscle] : channels)
+    run->channels.push_back(channel_of(column, is_input, muscle));
   if (has_target) run->target = std::make_shared<const std::vector<double>>(std::move(target));
   run->metrics = metrics;
   for (const auto& each : gaps) {

@@ -71,6 +71,16 @@ class Pickles(unittest.TestCase):
                                                    ("contraction_ratio", "encoder_contraction_ratio"))}}]})
         self.assertSameResult(data.replay(), again(data.replay()))
 
+    def test_of_runs_hold_columns_by_name(self):
+        pair = mckibben.Ride("thesis_pair").follow(CURRENTS, CURRENTS[::-1])
+        for run in (mckibben.Scenario(SCENARIO).run()[0], pair):
+            state = list(run.__getstate__())
+            self.assertEqual([column[0] for column in state[7]], list(run.units))
+            self.assertSameRun(again(run), run)
+            state[7] = [("no_such_column", False, 0)]
+            with self.assertRaisesRegex(ValueError, "no_such_column: this version has no such column"):
+                type(run).__new__(type(run)).__setstate__(tuple(state))
+
     def test_from_process_to_process(self):
         scenarios = [mckibben.Scenario({**SCENARIO, "seed": seed, "noise": {"encoder_jitter": 1e-4}}) for seed in (1, 2)]
         with multiprocessing.get_context("fork").Pool(2) as pool:
