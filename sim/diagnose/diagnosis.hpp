@@ -262,9 +262,9 @@ struct Start {
 
 struct NextExperiment {
   std::vector<std::string> separates;
-  std::string current;     ///< in words
-  std::string waveform{};  ///< kind in a scenario file
-  double load_kg = 0.0;
+  std::string current;                    ///< in words
+  std::string waveform{};                 ///< kind in a scenario file; of muscle 1
+  double load_kg = 0.0;                   ///< 0 where none hangs
   double expected_power = 0.0;            ///< probability to tell them apart
   domain::CampaignCurrent measurement{};  ///< the same current as a campaign or a scenario plays it
 };

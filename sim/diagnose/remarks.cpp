@@ -98,8 +98,7 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
   if (pair)
     words.push_back(
         "two muscles turn the joint: effects are looked for on both alike and on each; runs are not looked "
-        "through for faults of a recorder, no further measurement is planned, and a load's guide there is "
-        "none");
+        "through for faults of a recorder, and a load's guide there is none");
   if (data.rig.lever() != nullptr)
     words.push_back("the angle of a lever is read: runs are not looked through for faults of a recorder");
   std::vector<std::string> out;

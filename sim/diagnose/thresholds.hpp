@@ -138,6 +138,7 @@ struct PlanThresholds {
   double gauge_Pa = 1e3;                       ///< noise of a gauge that may be added,
   double gauge_zero_Pa = 2e3;                  ///< and the deviations of its zero
   double gauge_gain = 0.02;                    ///< and gain
+  std::array<double, 2> of_a_pair{0.2, 0.8};   ///< of a valve's range: neither muscle of a pair hangs through
   double least_rise = 0.05;  ///< contraction ratio at the highest pressure: a heavier load is not proposed
 };
 

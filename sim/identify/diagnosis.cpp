@@ -260,12 +260,20 @@ class HandingOver {
     result_.remaining = remaining(of_mended, result_.corrected, usable_.runs, result_.gap, reporting_.seed);
   }
 
+  /// Every valve by currents that are known.
+  bool is_commanded() const {
+    if (data_.rig.pair() == nullptr) return !data_.runs.front().current_mA.empty();
+    return std::ranges::all_of(data_.runs, [](const domain::Run& run) {
+      return run.measured->gives("command", 1) && run.measured->gives("command", 2);
+    });
+  }
+
   /// What would separate the chosen model from the best that does as well.
   void plan_next() {
     const domain::Judged judged = data_.judged();
-    if (data_.runs.front().current_mA.empty() || !data_.rig.lifts_a_load() ||
+    if (!is_commanded() || data_.rig.holds_a_length() ||
         (judged != domain::Judged::contraction && judged != domain::Judged::angle))
-      return;  // no currents, loads
+      return;
     const Model* rival = doubt(found_);
     if (rival == nullptr || chosen().general || found_.ended != Ended::no) return;
     step("planning the next measurement");

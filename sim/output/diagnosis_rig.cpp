@@ -207,10 +207,9 @@ std::string rig_yaml(const domain::Dataset& data, const diagnose::Diagnosis& dia
 
 std::string plan_yaml(const domain::Dataset& data, const diagnose::Diagnosis& diagnosis) {
   const auto& next = diagnosis.next_experiment.value();
-  const Json file{{"schema", input::campaign_schema},
-                  {"rig", corrected_rig(data, diagnosis)},
-                  {"loads", Json::array({input::quantity_json(next.load_kg, "kg")})},
-                  {"currents", Json::array({input::to_json(next.measurement, {data.rig.command_unit()})})}};
+  Json file{{"schema", input::campaign_schema}, {"rig", corrected_rig(data, diagnosis)}};
+  if (data.rig.pair() == nullptr) file["loads"] = Json::array({input::quantity_json(next.load_kg, "kg")});
+  file["currents"] = Json::array({input::to_json(next.measurement, {data.rig.command_unit()})});
   return fmt::format("{} of {}.\n", plan_heading, name_of(data)) +
          comment(fmt::format("It separates {} with a probability of {:.0f} %: {}.", listed(next.separates),
                              100.0 * next.expected_power, next.current)) +

@@ -116,8 +116,8 @@ std::string next(const Diagnosis& diagnosis) {
     return words.empty() ? "" : "  " + words + "\n";
   }
   const auto& next = *diagnosis.next_experiment;
-  return fmt::format("  {}, with {}: separates {} with a probability of {:.0f} %\n", next.current,
-                     mass(next.load_kg), listed(next.separates), 100.0 * next.expected_power);
+  return fmt::format("  {}: separates {} with a probability of {:.0f} %\n", in_words(next),
+                     listed(next.separates), 100.0 * next.expected_power);
 }
 
 }  // namespace

@@ -259,6 +259,11 @@ std::string untried_in_words(const diagnose::Diagnosis& diagnosis) {
 
 }  // namespace
 
+std::string in_words(const diagnose::NextExperiment& next) {
+  return next.load_kg > 0.0 ? fmt::format("{}, with a load of {}", next.current, mass(next.load_kg))
+                            : next.current;
+}
+
 std::string left_undecided(const diagnose::Diagnosis& diagnosis) {
   if (diagnosis.verdict != diagnose::Verdict::missing_effect) return "";
   const bool twins = std::ranges::any_of(diagnosis.effects,

@@ -71,6 +71,9 @@ std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis);
 /// Whether more is left than noise and what the verdict is about.
 bool is_unexplained(const diagnose::Diagnosis& diagnosis);
 
+/// The measurement that is proposed, with its load where one hangs.
+std::string in_words(const diagnose::NextExperiment& next);
+
 /// What could choose between the names that were found and others that are as good; empty where none is.
 std::string left_undecided(const diagnose::Diagnosis& diagnosis);
 

@@ -93,10 +93,9 @@ std::string next_html(const Diagnosis& diagnosis) {
   }
   const auto& next = *diagnosis.next_experiment;
   return fmt::format(
-      "<p><b>{}</b>, with a load of {}. It would separate {} with a probability of {:.0f} %. "
+      "<p><b>{}</b>. It would separate {} with a probability of {:.0f} %. "
       "The option <code>--plan FILE</code> writes it as a campaign.</p>\n",
-      escaped(next.current), output::mass(next.load_kg), escaped(output::listed(next.separates)),
-      100.0 * next.expected_power);
+      escaped(output::in_words(next)), escaped(output::listed(next.separates)), 100.0 * next.expected_power);
 }
 
 }  // namespace

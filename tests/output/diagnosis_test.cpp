@@ -275,6 +275,25 @@ TEST(DiagnosisPlan, IsACampaignWithThatCurrentAndLoadOnTheCorrectedRig) {
   EXPECT_EQ(input::rig_json(campaign.rig), input::rig_json(found.corrected));
 }
 
+TEST(DiagnosisPlan, OfAPairHasBothCurrentsAndNoLoad) {
+  domain::Dataset data = measured();
+  data.rig = plant::thesis_pair();
+  diagnose::Diagnosis found;
+  found.corrected = data.rig;
+  found.next_experiment = {.separates = {"muscle_leak", "valve_lag"},
+                           .current = "muscle 1: chirp; muscle 2: the same",
+                           .expected_power = 0.5,
+                           .measurement = {.name = "chirp_together",
+                                           .duration_s = 10.0,
+                                           .current_1 = controllers::ChirpCurrent{},
+                                           .current_2 = controllers::ChirpCurrent{}}};
+  const domain::Campaign next = input::read_campaign(input::Source("plan.yaml", plan_yaml(data, found), "."));
+  ASSERT_EQ(next.currents.size(), 1u);
+  EXPECT_TRUE(next.currents[0].current_1 && next.currents[0].current_2);
+  EXPECT_NE(next.rig.pair(), nullptr);
+  EXPECT_TRUE(holds(table_of(data, found), "muscle 2: the same: separates muscle_leak and valve_lag"));
+}
+
 TEST(DiagnosisTable, SaysWhatCounts) {
   const std::string text = table_of(measured(), diagnosed());
   EXPECT_LT(text.find("warning: run r04"), text.find("missing_effect: "));

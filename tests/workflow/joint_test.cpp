@@ -91,5 +91,29 @@ TEST(JointDiagnosis, NamesNothingWhereNothingIsMissing) {
   EXPECT_FALSE(found.next_experiment);
 }
 
+// A small dead band in noise, and the next best explanation as if it did as well.
+TEST(NightlyJointDiagnosis, PlansTheCommandsOfBothMusclesThatTellExplanationsApart) {
+  domain::Dataset data =
+      of_a_joint(pair_with(plant::ValveDeadBand{.half_width_Pa = 1.5e3}), true, {.angle_rad = 3e-3});
+  data.runs.resize(3);
+  const identify::Settings settings{.threads = 2};
+  identify::Identified found = identify::identify(data, settings);
+  const identify::Judged chosen = found.table[found.decision.chosen];
+  identify::Judged* rival = nullptr;
+  for (identify::Judged& one : found.table)
+    if (!one.general && !one.names.empty() && one.names != chosen.names &&
+        (rival == nullptr || one.score > rival->score))
+      rival = &one;
+  ASSERT_NE(rival, nullptr);
+  rival->score = chosen.score;
+  rival->held_out = chosen.held_out;
+  const auto next = identify::diagnosis_of(found, settings, {.seed = 3}).next_experiment;
+  ASSERT_TRUE(next);
+  EXPECT_GT(next->expected_power, 0.5);
+  EXPECT_EQ(next->separates.size(), 2u);
+  EXPECT_TRUE(next->measurement.current_1 && next->measurement.current_2);
+  EXPECT_TRUE(holds(next->current, "muscle 1: ", "; muscle 2: "));
+}
+
 }  // namespace
 }  // namespace mckibben::diagnose
