@@ -8,6 +8,7 @@
 
 #include <plant/geometry.hpp>
 #include <sim/data/gains.hpp>
+#include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
@@ -252,6 +253,51 @@ std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::
                              "of its gauge, or of its heading, left out? Then columns: {{{}}}",
                              key, line.slope, line_of(key, place)),
       .severity = Severity::doubtful};
+}
+
+namespace {
+
+/// What a gauge reads more, in the middle, as long as the model rests at its beginning, at its lowest; none
+/// where it rests for a few rows only. Nothing lags there.
+std::optional<double> off_at_beginning(const Compared& gauge) {
+  const double near_Pa = thresholds.reading.gauge_step_Pa;
+  std::vector<double> off_Pa;
+  for (std::size_t k = 0; k < gauge.model.size() && std::abs(gauge.model[k] - gauge.model[0]) < near_Pa; ++k)
+    off_Pa.push_back(gauge.measured[k] - gauge.model[k]);
+  if (off_Pa.size() < thresholds.plausible.least_rows ||
+      gauge.model[0] > *std::ranges::min_element(gauge.model) + near_Pa)
+    return std::nullopt;
+  return median(std::move(off_Pa));
+}
+
+}  // namespace
+
+std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
+                                           ColumnPlace place, double accuracy_Pa) {
+  std::vector<double> offs_Pa, lowest_Pa;
+  Finding found{.quantity = key, .message = {}, .severity = Severity::doubtful};
+  for (const Compared& run : runs) {
+    if (Line(run.measured, run.model).correlation < of_gains.hardly_alike) return std::nullopt;
+    found.runs.insert(found.runs.end(), run.runs.begin(), run.runs.end());
+    lowest_Pa.push_back(*std::ranges::min_element(run.measured) - *std::ranges::min_element(run.model));
+    if (const auto off_Pa = off_at_beginning(run)) offs_Pa.push_back(*off_Pa);
+  }
+  const std::optional<double> unit_Pa = size_Pa(place.unit);
+  if (offs_Pa.empty() || !unit_Pa) return std::nullopt;
+  const double off_Pa = median(offs_Pa);
+  const auto differs = [&](double one) {
+    return std::abs(one - off_Pa) > of_gains.same_zero * std::abs(off_Pa);
+  };
+  const auto comes_back = [&](double one) { return one / off_Pa < 1.0 - of_gains.same_zero; };
+  if (std::abs(off_Pa) < std::max(of_gains.zero_Pa, of_gains.zero_accuracies * accuracy_Pa) ||
+      std::ranges::any_of(offs_Pa, differs) || std::ranges::any_of(lowest_Pa, comes_back))
+    return std::nullopt;
+  place.zero = domain::significant(place.zero + off_Pa / *unit_Pa / place.factor, digits - 1);
+  found.message = fmt::format(
+      "{} reads {:.3g} bar {} than the rig has where runs begin: is its zero what its gauge reads "
+      "without pressure? About columns: {{{}}}",
+      key, std::abs(off_Pa) / plant::Pa_per_bar, off_Pa > 0.0 ? "more" : "less", line_of(key, place));
+  return found;
 }
 
 }  // namespace mckibben::data

@@ -59,6 +59,10 @@ std::optional<Finding> other_unit_of_gauge(const Compared& gauge, const std::str
 /// or by a factor: that of a gauge is one for all runs that it reads, or none.
 std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::string& key,
                                   domain::ColumnPlace place);
+/// A gauge that reads another constant too much or too little where all runs begin at rest, and comes back
+/// to it. `accuracy_Pa`: rms.
+std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
+                                           domain::ColumnPlace place, double accuracy_Pa);
 /// Whether a gauge may read so many times what the rig would do.
 bool is_gauge_slope(double slope);
 

@@ -47,6 +47,8 @@ struct ColumnThresholds {
   double hardly_pulls = 0.5;  ///< of the load: a muscle twice as strong would not lift it
   double beyond_reach = 1.1;  ///< times what braid and model reach at most; ± of a sheet is less
   double atmosphere = 0.2;    ///< relative: an offset so near to it is it
+  double zero_Pa = 0.2e5, zero_accuracies = 5.0;  ///< no gauge's own zero is off by more, nor by so many rms
+  double same_zero = 0.25;                        ///< of that offset: all runs agree on it
 };
 
 /// Loads, weighed by the muscle.

@@ -137,6 +137,25 @@ TEST(Sanity, AnAtmosphereIsToldByWhatTheGaugeReadsAtRest) {
       holds(told(1.4, 0.8e5), "warning", "too high where the rig is at rest, ", "bar, in the middle"));
 }
 
+TEST(Sanity, AZeroOfAGaugeThatWasForgottenIsAskedFor) {
+  auto data = sound();
+  const auto read_more = [&](double by_Pa, const std::vector<std::size_t>& runs) {
+    for (const std::size_t run : runs)
+      for (double& pressure_Pa : *data.runs[run].muscle_pressure_Pa) pressure_Pa += by_Pa;
+  };
+  data.columns["muscle_pressure"] = {.column = "p", .unit = "bar", .factor = 2.5};
+  read_more(0.1e5, {0, 1, 2, 3, 4, 5});
+  EXPECT_EQ(said(data), std::vector<std::string>{}) << "gauges do so";
+  read_more(1.15e5, {0, 1, 2, 3, 4, 5});
+  EXPECT_TRUE(holds(says(data), "warning: all runs: muscle_pressure reads 1.2",
+                    " bar more than the rig has where runs begin",
+                    "About columns: {muscle_pressure: {column: p, unit: bar, zero: 0.", ", factor: 2.5}}"));
+  read_more(-0.8e5, {0, 1, 2, 3, 4, 5});
+  EXPECT_TRUE(holds(says(data), "muscle_pressure reads 0.4"));
+  read_more(-0.4e5, {0, 1, 2});
+  for (const std::string& one : said(data)) EXPECT_EQ(one.find(" reads 0."), std::string::npos) << one;
+}
+
 TEST(Sanity, ARunThatBeginsOnItsWayIsToldWithItsSpeed) {
   auto data = sound();
   domain::Run& run = data.runs[2];
