@@ -141,7 +141,7 @@ class Plausible {
     grid(key, column.values);
   }
 
-  /// What the valve does not answer to. Below its zero_command benches rest, the thesis's sines too.
+  /// What the valve does not answer to. At 0, below its zero_command, benches rest, the thesis's sines too.
   void command(const plant::Channel& channel, const Series& values) {
     const plant::Valve& valve = channel.muscle == 2 ? data_.rig.pair()->opposite.valve : data_.rig.valve;
     const double slack = limits.beyond_span * (valve.span_command - valve.zero_command);
@@ -149,18 +149,23 @@ class Plausible {
     if (const auto why = commands.empty() ? std::nullopt : rounded(commands, data_.rig))
       find(channel.key_in_dataset(), "rounded", fmt::format("{} {}", channel.key_in_dataset(), *why),
            Severity::doubtful);
-    if (commands.empty() || std::ranges::max(commands) <= valve.span_command + slack) return;
+    if (commands.empty()) return;
     const std::string key = channel.key_in_dataset();
-    find(key, "beyond",
-         fmt::format(
-             "{0} goes up to {1:.4g} {4}, and the rig's valve answers to {2:.4g} to {3:.4g} {4}: above "
-             "that {5}; are zero_command and span_command the "
-             "valve's, and unit and factor the column's?",
-             key, std::ranges::max(commands), valve.zero_command, valve.span_command,
-             name_of(data_.rig.command_unit()),
-             valve.is_on_off() ? "it is open all the time, a duty of 100 %"
-                               : "the simulated pressure does not change"),
-         Severity::doubtful);
+    const auto ask = [&](const char* goes, double value, const char* so, const char* does) {
+      find(key, goes,
+           fmt::format("{0} goes {1} to {2:.4g} {5}, and the rig's valve answers to {3:.4g} to {4:.4g} {5}: "
+                       "{6} that {7}; are zero_command and span_command the valve's, and unit, zero and "
+                       "factor the column's?",
+                       key, goes, value, valve.zero_command, valve.span_command,
+                       name_of(data_.rig.command_unit()), so,
+                       valve.is_on_off() ? does : "the simulated pressure does not change"),
+           Severity::doubtful);
+    };
+    const double high = std::ranges::max(commands);
+    if (high > valve.span_command + slack)
+      ask("up", high, "above", "it is open all the time, a duty of 100 %");
+    if (const auto why = between_states(commands, valve))
+      find(key, "between", fmt::format("{} {}", key, *why), Severity::doubtful);
   }
 
   void never_moves(const std::string& key, const Series& values) {

@@ -37,4 +37,24 @@ std::optional<std::string> rounded(const std::vector<double>& commands, const pl
       std::max(4.0, std::round(std::log2((rig.dac.largest_command - rig.dac.lowest_command) / step))));
 }
 
+std::optional<std::string> between_states(const std::vector<double>& commands, const plant::Valve& valve) {
+  if (!valve.is_on_off() || valve.switching != plant::Switching::edges) return std::nullopt;
+  constexpr const PlausibleThresholds& limits = thresholds.plausible;
+  std::set<double> values;
+  std::size_t rows = 0;
+  for (const double command : commands)
+    if (const double way = valve.way(command); way > limits.an_end && way < 1.0 - limits.an_end) {
+      values.insert(command);
+      ++rows;
+    }
+  if (values.size() <= limits.most_states ||
+      static_cast<double>(rows) < limits.between_share * static_cast<double>(commands.size()))
+    return std::nullopt;
+  return fmt::format(
+      "takes many values between {:.4g} and {:.4g} {}, and the rig's valve is open or shut (switching: "
+      "edges, if it says none): are they duties? Then write in its valve switching: pwm, with pwm_frequency, "
+      "or switching: averaged",
+      valve.zero_command, valve.span_command, name_of(valve.command_unit));
+}
+
 }  // namespace mckibben::data

@@ -117,6 +117,9 @@ struct PlausibleThresholds {
   std::size_t least_rows = 10;
   double beyond_supply = 1.5, high_Pa = 1e6;  ///< that a given pressure reaches at most
   double beyond_span = 0.01;                  ///< of a valve's range of commands: an offset of the DAC
+  double an_end = 0.02;                       ///< of that range: a command so near to an end is there,
+  std::size_t most_states = 8;  ///< of valves that are open or shut: commands of more values elsewhere,
+  double between_share = 0.2;   ///< in such a share of the rows, are duties
   double lifts_nothing_Pa = 0.15e5, moves_far = 0.02;
   double least_atmosphere_Pa = 0.95e5, most_atmosphere_Pa = 1.06e5;
   double nearer = 1.0 / 3.0;  ///< of the error is left if a given pressure is taken as absolute

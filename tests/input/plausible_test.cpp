@@ -1,4 +1,5 @@
 // What cannot be in measured data is said before anything is simulated, with the line to write.
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -55,12 +56,13 @@ class PlausibleData : public ::testing::Test {
   Scratch place_;
 };
 
-TEST_F(PlausibleData, CommandsAboveTheValvesAreAskedAbout) {
+TEST_F(PlausibleData, CommandsBeyondOrBetweenTheValvesAreAskedAbout) {
   const auto asked = [&](double most_V,
-                         const std::string& valve = "zero_pressure: 0 bar, span_pressure: 6 bar") {
+                         const std::string& valve = "zero_pressure: 0 bar, span_pressure: 6 bar",
+                         double least_V = 0.0) {
     std::string rows = "t,u,x\n";
     for (int k = 0; k < 200; ++k)
-      rows += fmt::format("{},{:.3f},{:.2f}\n", 10 * k, most_V * k / 199, 0.157 * k);
+      rows += fmt::format("{},{:.3f},{:.2f}\n", 10 * k, std::lerp(least_V, most_V, k / 199.0), 0.157 * k);
     place_.write("a.csv", rows);
     place_.write(
         "dataset.yaml",
@@ -75,9 +77,11 @@ TEST_F(PlausibleData, CommandsAboveTheValvesAreAskedAbout) {
   EXPECT_EQ(asked(10.05), "");
   EXPECT_EQ(asked(12.0),
             "doubtful: command goes up to 12 V, and the rig's valve answers to 0 to 10 V: above that the "
-            "simulated pressure does not change; are zero_command and span_command the valve's, and unit and "
-            "factor the column's?\n");
-  EXPECT_EQ(asked(10.05, "kind: on_off"), "");
+            "simulated pressure does not change; are zero_command and span_command the valve's, and unit, "
+            "zero and factor the column's?\n");
+  EXPECT_EQ(asked(10.05, "kind: on_off, switching: averaged"), "");
+  EXPECT_TRUE(holds(asked(10.05, "kind: on_off"), "doubtful: command takes many values between 0 and 10 V",
+                    "switching: pwm, with pwm_frequency, or switching: averaged"));
   EXPECT_TRUE(holds(asked(12.0, "kind: on_off, switching: pwm, pwm_frequency: 50 Hz"),
                     "above that it is open all the time, a duty of 100 %; are zero_command"));
 }
