@@ -94,8 +94,8 @@ void look_for_venting(const Table& table, const Table::Column& command, const pl
       std::ranges::any_of(command.values, [&](double value) { return value < rests - slack; }))
     return;
   found.note({table.lines.front(), 1},
-             fmt::format("{} never vents, and {} is not read: if that one vents, write one column of both, "
-                         "filling less venting",
+             fmt::format("{0} never vents, and {1} is not read: if that one vents, write into the table one "
+                         "column duty of both, {0} less {1}",
                          command.in_file, *other));
 }
 

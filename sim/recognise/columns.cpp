@@ -26,13 +26,16 @@ bool is_misspelt(const std::string& unit) {
   return unit.starts_with("mPa");
 }
 
+std::string_view unit_of_example(const domain::Quantity& quantity) {
+  return quantity.key == "contraction" ? "mm" : quantity.unit();
+}
+
 /// What can stand there, also of an ADC's numbers.
 std::string example_of(const domain::Quantity& quantity) {
-  const std::string_view unit = quantity.key == "contraction" ? "mm" : quantity.unit();
   return fmt::format(
       "write one, as {0}; of numbers of an ADC {0} with factor: the {0} of one step, and zero: what it reads "
       "at 0 {0}",
-      unit);
+      unit_of_example(quantity));
 }
 
 Told unit_told(const Heading& heading) {
@@ -83,8 +86,9 @@ ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const N
   }
   const bool duties =
       std::ranges::all_of(candidates, [](const Named* each) { return each->heading.is_duty; });
-  const std::string why = !names.empty()   ? fmt::format("it may be any of: {}{}", fmt::join(names, "; "),
-                                                       names.size() == 2 ? of_two(quantity, duties) : "")
+  const std::string why = !names.empty()
+                              ? fmt::format("it may be any of: {}{}", fmt::join(names, "; "),
+                                            names.size() == 2 ? of_two(quantity, duties) : std::string())
                           : others.empty() ? "no column seems to hold it"
                                            : "no heading names it; perhaps one of: " + others;
   return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}, {}};
@@ -247,19 +251,6 @@ const Values* column_of(const UnknownTable& table, const std::string& name) {
   return found == table.columns.end() ? nullptr : &found->values;
 }
 
-std::optional<Readings> readings_of(const std::vector<const UnknownTable*>& tables,
-                                    const std::string& column) {
-  Readings all;
-  for (const UnknownTable* table : tables) {
-    const Values* values = column_of(*table, column);
-    if (values == nullptr) return std::nullopt;
-    all.values.push_back(values);
-    const Range own = range_of(*values);
-    all.range = {std::min(all.range.low, own.low), std::max(all.range.high, own.high)};
-  }
-  return all;
-}
-
 const ColumnGuess* drive_of(const MapGuess& map) {
   for (const char* key : {"current", "command", "muscle_pressure"})
     if (const ColumnGuess* guess = map.find(key); guess != nullptr && !guess->column.open()) return guess;
@@ -338,6 +329,8 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_know
       for (const Named* each : found)
         if (each->column->name == map.columns.back().column.value)
           command_of_share(map.columns.back(), each->heading, tables, rig);
+    const bool duties = std::ranges::any_of(found, [](const Named* each) { return each->heading.is_duty; });
+    if (duties && map.columns.back().column.open()) unit_of_either_duty(map.columns.back(), rig);
     if (quantity == "muscle_pressure" && !found.empty()) zero_of_pressure(map.columns.back(), tables);
   }
   if (time.row_numbers != nullptr)

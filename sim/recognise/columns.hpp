@@ -31,7 +31,16 @@ void sign_and_zero(ColumnGuess& contraction, const ColumnGuess& drive, const Col
 void compare_zeros(Recognised& all);
 
 /// What is to be done with two columns of a quantity; empty where one of them is the right one.
-std::string_view of_two(const domain::Quantity& quantity, bool duties);
+std::string of_two(const domain::Quantity& quantity, bool duties);
+
+/// Of a command that may be any of several columns, duties among them: its unit by the rig.
+void unit_of_either_duty(ColumnGuess& command, const KnownRig& rig);
+
+/// What a rig that nobody has described has as its valve, if duties command it; nothing if none do.
+std::vector<Setting> valve_of_duties(const MapGuess& map, const UnknownTable& table);
+/// What else a valve may be whose commands have no unit.
+inline constexpr const char* of_valves_that_are_open_or_shut =
+    ", or on_off, which is open or shut (then delete zero_pressure and span_pressure)";
 
 /// A command that was recorded as a share, of the valve's range or as a duty: the rig's unit, zero and
 /// factor. Of two valves a duty below 0 vents (sim/ride/switch.cpp).

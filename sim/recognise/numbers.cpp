@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <sim/data/series.hpp>
+#include <sim/input/number.hpp>
 #include <sim/recognise/columns.hpp>
 
 namespace mckibben::recognise {
@@ -72,6 +73,31 @@ Range range_of(const Values& values) {
   for (const double value : values)
     if (!std::isnan(value)) range = {std::min(range.low, value), std::max(range.high, value)};
   return range.low > range.high ? Range{} : range;
+}
+
+std::vector<double> shown(const UnknownTable& table, const ColumnGuess& guess) {
+  const Values* values = column_of(table, guess.column.value);
+  if (values == nullptr) return {};
+  Values brought = *values;
+  if (guess.input && guess.input->value == "interval") brought = seconds_of(table, guess);
+  const auto number = [](const std::optional<Told>& told, double otherwise) {
+    return told ? input::parse_number(told->value).value_or(otherwise) : otherwise;
+  };
+  for (double& value : brought) value = (value - number(guess.zero, 0.0)) * number(guess.factor, 1.0);
+  return brought;
+}
+
+std::optional<Readings> readings_of(const std::vector<const UnknownTable*>& tables,
+                                    const std::string& column) {
+  Readings all;
+  for (const UnknownTable* table : tables) {
+    const Values* values = column_of(*table, column);
+    if (values == nullptr) return std::nullopt;
+    all.values.push_back(values);
+    const Range own = range_of(*values);
+    all.range = {std::min(all.range.low, own.low), std::max(all.range.high, own.high)};
+  }
+  return all;
 }
 
 Together together(const std::vector<const Values*>& drive, const std::vector<const Values*>& reading) {

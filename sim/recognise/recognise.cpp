@@ -9,7 +9,6 @@
 #include <sim/domain/measurement.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/file_names.hpp>
-#include <sim/input/number.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/thinned.hpp>
 #include <sim/recognise/columns.hpp>
@@ -41,18 +40,6 @@ std::size_t Recognised::open() const {
   for (const Setting& each : dataset) add(each.told);
   for (const Setting& each : rig) add(each.told);
   return count;
-}
-
-std::vector<double> shown(const UnknownTable& table, const ColumnGuess& guess) {
-  const Values* values = column_of(table, guess.column.value);
-  if (values == nullptr) return {};
-  Values brought = *values;
-  if (guess.input && guess.input->value == "interval") brought = seconds_of(table, guess);
-  const auto number = [](const std::optional<Told>& told, double otherwise) {
-    return told ? input::parse_number(told->value).value_or(otherwise) : otherwise;
-  };
-  for (double& value : brought) value = (value - number(guess.zero, 0.0)) * number(guess.factor, 1.0);
-  return brought;
 }
 
 namespace {
@@ -325,6 +312,10 @@ class Recogniser {
 
   void valve() {
     const ColumnGuess* command = this->command();
+    if (const auto said = valve_of_duties(first_map(), all_.tables.front()); !said.empty()) {
+      all_.rig.insert(all_.rig.end(), said.begin(), said.end());
+      return;
+    }
     if (command == nullptr) return;
     Range range{1e300, -1e300};
     for (std::size_t i = 0; i < all_.runs.size(); ++i)
@@ -344,9 +335,11 @@ class Recogniser {
     const std::string recorded =
         unit.empty() ? "" : fmt::format("{:.4g} to {:.4g} {} were recorded", range.low, range.high, unit);
     constexpr double slack = 1.01;
-    if (unit == "V" || unit == "bar")
-      set("valve.kind", left_open("regulator, which keeps its target pressure (then also time_constant), or "
-                                  "servo, whose opening follows the error"));
+    if (unit != "mA")
+      set("valve.kind",
+          left_open(std::string("regulator, which keeps its target pressure (then also time_constant), or "
+                                "servo, whose opening follows the error") +
+                    (unit.empty() ? of_valves_that_are_open_or_shut : "")));
     if (unit == "bar") {
       const std::string span = fmt::format("{} bar", std::ceil(range.high));
       command_range("0 bar", span, "a command in bar is the pressure itself; " + recorded);
@@ -359,8 +352,9 @@ class Recogniser {
     } else if (unit == "V" && range.high > 5.0 * slack && range.high <= 10.0 * slack) {
       command_range("0 V", "10 V", "0 to 10 V is usual; " + recorded);
     } else {
-      set("valve.zero_command", left_open("command at zero_pressure; " + recorded));
-      set("valve.span_command", left_open("command at span_pressure; " + recorded));
+      const std::string seen = recorded.empty() ? "" : "; " + recorded;
+      set("valve.zero_command", left_open("command at zero_pressure" + seen));
+      set("valve.span_command", left_open("command at span_pressure" + seen));
     }
     pressure_range(left_open("gauge pressure at the lower end of the commands"),
                    left_open("gauge pressure at their upper end"));

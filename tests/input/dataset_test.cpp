@@ -230,7 +230,8 @@ TEST(Dataset, ADutyThatOnlyFillsIsNotedBesideOneThatIsNotRead) {
     return all.empty() ? "" : all.front();
   };
   EXPECT_TRUE(holds(remarks("2/2", "duty_fill", 0),
-                    "a.csv:2:1: duty_fill never vents, and duty_vent is not read", "filling less venting"));
+                    "a.csv:2:1: duty_fill never vents, and duty_vent is not read",
+                    "one column duty of both, duty_fill less duty_vent"));
   EXPECT_EQ(remarks("2/2", "duty_fill", -30), "") << "it vents";
   EXPECT_EQ(remarks("2/2", "u", 0), "") << "no duty";
   EXPECT_EQ(remarks("3/2", "duty_fill", 0), "") << "one valve";
