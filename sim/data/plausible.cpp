@@ -161,9 +161,10 @@ class Plausible {
                        valve.is_on_off() ? does : "the simulated pressure does not change"),
            Severity::doubtful);
     };
-    const double high = std::ranges::max(commands);
+    const auto [low, high] = std::ranges::minmax(commands);
     if (high > valve.span_command + slack)
       ask("up", high, "above", "it is open all the time, a duty of 100 %");
+    if (low < -slack) ask("down", low, "below", "it vents all the time");
     if (const auto why = between_states(commands, valve))
       find(key, "between", fmt::format("{} {}", key, *why), Severity::doubtful);
   }

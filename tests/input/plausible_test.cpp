@@ -79,6 +79,12 @@ TEST_F(PlausibleData, CommandsBeyondOrBetweenTheValvesAreAskedAbout) {
             "doubtful: command goes up to 12 V, and the rig's valve answers to 0 to 10 V: above that the "
             "simulated pressure does not change; are zero_command and span_command the valve's, and unit, "
             "zero and factor the column's?\n");
+  EXPECT_EQ(asked(10.0, "zero_pressure: 0 bar, span_pressure: 6 bar", -0.05), "");
+  EXPECT_TRUE(holds(asked(10.0, "zero_pressure: 0 bar, span_pressure: 6 bar", -6.0),
+                    "doubtful: command goes down to -6 V",
+                    "below that the simulated pressure does not change", "unit, zero and factor"));
+  EXPECT_TRUE(
+      holds(asked(10.0, "kind: on_off, switching: averaged", -6.0), "below that it vents all the time"));
   EXPECT_EQ(asked(10.05, "kind: on_off, switching: averaged"), "");
   EXPECT_TRUE(holds(asked(10.05, "kind: on_off"), "doubtful: command takes many values between 0 and 10 V",
                     "switching: pwm, with pwm_frequency, or switching: averaged"));
