@@ -46,6 +46,11 @@ Told unit_told(const Heading& heading) {
     return left_open(
         fmt::format("the table says ({}), which is no unit that is known here", heading.unknown));
   if (heading.unit.empty()) return left_open("the table says no unit: " + example_of(*heading.quantity));
+  if (is_of_a_sensor(heading.unit) && !heading.quantity->is_command() && heading.quantity->key != "time")
+    return left_open(fmt::format(
+        "the table says {0}, which its sensor gives: write unit: {1}, factor: the {1} of one {0}, and zero: "
+        "what it reads at 0 {1}",
+        heading.unit, unit_of_example(*heading.quantity)));
   return left_open(
       fmt::format("the table says {}, which is none of {}: write unit, zero and factor of the sensor",
                   heading.unit, heading.quantity->key));

@@ -290,6 +290,10 @@ std::string_view trust(bool by_word, bool by_unit) {
 
 }  // namespace
 
+bool is_of_a_sensor(const std::string& unit) {
+  return unit == "V" || unit == "mV" || unit == "mA";
+}
+
 Heading heading_of(const UnknownColumn& column) {
   for (const auto& [commands, unit] : names(plant::CommandUnit{}))
     for (const domain::Quantity& each : domain::quantities(commands))
@@ -340,7 +344,7 @@ Heading heading_of(const UnknownColumn& column) {
   heading.quantity = &domain::quantity_of(key);
   if (key == "time" && heading.unit.empty()) heading.unit = unit_of_time_word(words);
   heading.unit_fits = is_unit_of(key, heading.unit);
-  if (is_suffix && !heading.unit_fits && !is_share) heading.unit.clear();
+  if (is_suffix && !heading.unit_fits && !is_share && !is_of_a_sensor(heading.unit)) heading.unit.clear();
   heading.reason = fmt::format("{} ({})", told, trust(!told.starts_with("its unit"), heading.unit_fits));
   if (!column.unit.empty() && !column.is_date)
     heading.other_unit = contradicting(unit_of_part(split.behind), split.in_brackets, column.unit);

@@ -25,6 +25,8 @@ struct Heading {
   std::string times{};  ///< of ten by which its numbers are scaled, as `x10` in `p x10 [bar]`; empty: none
 };
 
+/// A voltage or a current, which a sensor gives of anything.
+bool is_of_a_sensor(const std::string& unit);
 Heading heading_of(const UnknownColumn& column);
 /// Two units that it and the line below it say: which one is asked.
 Told two_units(const Heading& heading);

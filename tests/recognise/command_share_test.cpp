@@ -118,6 +118,14 @@ TEST_F(Asked, TheValveOfADutyIsOnOrOff) {
   EXPECT_TRUE(holds(unknown, "# command at zero_pressure\n"));
 }
 
+TEST_F(Asked, ASensorsVoltageIsNamedAlsoBehindAName) {
+  const auto rows = [](int k) { return fmt::format("{},{:.3f},{:.3f}", 12 * k, drive(k), 0.5 + drive(k)); };
+  for (const char* name : {"p_V", "p_sensor_V", "p [V]"})
+    EXPECT_TRUE(holds(column(of(fmt::format("t [ms],u [V],{}\n", name), rows), "muscle_pressure").unit.reason,
+                      "the table says V, which its sensor gives: write unit: bar, factor: the bar of one V"))
+        << name;
+}
+
 TEST_F(Asked, AStatedPercentIsOneAndAnUnstatedOneIsAsked) {
   const KnownRig rig = two_valves();
   const auto rows = [](double most) {
