@@ -198,6 +198,20 @@ void read_command_unit(const Source& source, const Node& map, Rig& into, Problem
   if (plant::Pair* pair = into.pair()) plant::command_in(pair->opposite, to->first, from->second, to->second);
 }
 
+/// Pulses that end before a valve has opened.
+void check_pulses(const Source& source, const Node& map, const plant::Valve& valve, Problems& problems) {
+  const Node* part = map.find("valve");
+  if (part == nullptr || !valve.is_on_off() || valve.switching != plant::Switching::pwm ||
+      valve.pwm_frequency_Hz * valve.opening_delay_s < 1.0)
+    return;
+  const Node* said = part->find("pwm_frequency");
+  problems.warning(
+      source, (said != nullptr ? said : part)->place,
+      fmt::format("a period of pwm_frequency lasts {:.3g} ms, and opening_delay {:.3g} ms: no duty "
+                  "below 100 % opens the valve",
+                  1e3 / valve.pwm_frequency_Hz, 1e3 * valve.opening_delay_s));
+}
+
 void read_changes(const Source& source, const Node& map, Rig& into, Problems& problems, Chain& chain,
                   std::span<const std::string_view> also_allowed) {
   into = {};
@@ -219,6 +233,7 @@ void read_changes(const Source& source, const Node& map, Rig& into, Problems& pr
   read_old_sensors(source, map, into.sensors, problems, {commands, &into.spreads, "sensors."});
   read_struct(source, map, into, problems, allowed,
               {commands, &into.spreads, "", base != nullptr ? base->text : ""});
+  check_pulses(source, map, into.valve, problems);
 }
 
 }  // namespace

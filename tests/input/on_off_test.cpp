@@ -28,5 +28,23 @@ TEST(OnOffFile, IsReadAndWrittenBack) {
   EXPECT_EQ(to_json(rig_of("valve: " + written.dump())), to_json(rig));
 }
 
+TEST(OnOffFile, PulsesThatEndBeforeTheValveOpensGetAWarning) {
+  const auto warned = [](const std::string& valve) {
+    std::vector<InputFile> inputs;
+    std::vector<Problem> warnings;
+    read_rig(Source("rig.yaml",
+                    "schema: mckibben-rig/1\nvalve: {kind: on_off, zero_command: 0 V, span_command: 10 V, " +
+                        valve + "}\n",
+                    ""),
+             inputs, &warnings);
+    return warnings.empty() ? "" : warnings.front().message;
+  };
+  EXPECT_EQ(
+      warned("switching: pwm, pwm_frequency: 1 kHz, opening_delay: 3 ms"),
+      "a period of pwm_frequency lasts 1 ms, and opening_delay 3 ms: no duty below 100 % opens the valve");
+  EXPECT_EQ(warned("switching: pwm, pwm_frequency: 50 Hz, opening_delay: 3 ms"), "");
+  EXPECT_EQ(warned("opening_delay: 3 ms"), "");
+}
+
 }  // namespace
 }  // namespace mckibben::input
