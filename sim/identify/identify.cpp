@@ -78,7 +78,7 @@ Model Search::begun(Point point) const {
 }
 
 Model Search::refined(Model m) {
-  m.settle({.enough = decisive.strong, .beat = best_score() - clear});  // `last` is fitted to the end
+  m.settle({.beat = best_score() - clear});
   if (m.hopeless)
     m.log_evidence = m.here().evidence;
   else
