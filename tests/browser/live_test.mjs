@@ -236,22 +236,24 @@ test('lines are seen beneath one another, keys are like them, loops lie alike', 
   await end();
 });
 
-test('of a valve that is open or shut the command is plotted, and no pressure is called commanded', async () => {
-  writeFileSync(
-      'on_off.yaml',
-      'schema: mckibben-rig/1\nbase: thesis\n' +
-          'valve: {kind: on_off, switching: averaged, zero_command: 0 V, span_command: 10 V}\n');
-  const shut = await started('on_off.yaml', '--load', '5 kg', '--out', 'live/shut');
-  const {page, end} = await live({}, shut);
-  const names = await page.evaluate(() => loops.map(({names}) => names));
-  assert.deepEqual(names[0], ['encoder_contraction_ratio', 'command']);
-  await until(page, () => loops[0].values[0].length > 10);
-  const text = await page.evaluate(() => document.body.textContent);
-  assert.match(text, /Command over the counted contraction/);
-  assert.doesNotMatch(text, /commanded/i);
-  await end();
-  shut.program.kill('SIGINT');
-});
+test(
+    'of a valve that is open or shut the command is plotted, and no pressure is called commanded',
+    async () => {
+      writeFileSync(
+          'on_off.yaml',
+          'schema: mckibben-rig/1\nbase: thesis\n' +
+              'valve: {kind: on_off, switching: averaged, zero_command: 0 V, span_command: 10 V}\n');
+      const shut = await started('on_off.yaml', '--load', '5 kg', '--out', 'live/shut');
+      const {page, end} = await live({}, shut);
+      const names = await page.evaluate(() => loops.map(({names}) => names));
+      assert.deepEqual(names[0], ['encoder_contraction_ratio', 'command']);
+      await until(page, () => loops[0].values[0].length > 10);
+      const text = await page.evaluate(() => document.body.textContent);
+      assert.match(text, /Command over the counted contraction/);
+      assert.doesNotMatch(text, /commanded/i);
+      await end();
+      shut.program.kill('SIGINT');
+    });
 
 test('pause by the space bar, begin again, and a recording that replays', async () => {
   const {page, end} = await live();
