@@ -97,8 +97,7 @@ void add_batch(py::module_& module) {
           "it was before the tick, without copies.")
       .def_property_readonly("contraction_ratio", &Batch::contraction_ratio,
                              "As the encoders count it [1], shape (n,).")
-      .def_property("jitter", &Batch::jitter, &Batch::set_jitter,
-                    "Of each, as a single one has it.")
+      .def_property("jitter", &Batch::jitter, &Batch::set_jitter, "Of each, as a single one has it.")
       .def_property_readonly(
           "state", &Batch::state,
           "True states, shape (n, 5): contraction ratio [1] and its speed [1/s], valve and "
