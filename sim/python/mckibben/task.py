@@ -216,7 +216,9 @@ class Episode:
         return {"columns": {"angle": {"column": "angle_rad", "unit": "count", "factor": 1.0 / per_count}}}
 
     def begin(self, counted):
-        self.last = self.at_rest = counted
+        per_count = self.rig.contraction_per_count  # counted already, so shaken by whole counts
+        shaken = per_count * round(self.shake() / per_count)
+        self.last = self.at_rest = counted + shaken * (self.rad if self.task.pair else 1.0)
         self.rows = []
         return self.seen(0.0)
 
