@@ -132,12 +132,11 @@ class Columns {
     if (const auto which = data_.runs.front().judged_gauge()) judge(pressure(*which), all);
     force(beside, true);
     if (data_.recorded.start != domain::Start::settled) return;
-    for (const auto& [line, gauge] : gauges_) {
-      const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::muscle_pressure);
+    const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::muscle_pressure);
+    for (const auto& [line, gauge] : gauges_)
       if (auto found = other_zero_of_gauge(gauge.second, gauge.first.key, gauge.first.place,
                                            sheet != nullptr ? sheet->accuracy : 0.0))
         findings_.push_back(std::move(*found));
-    }
   }
 
  private:

@@ -207,11 +207,17 @@ Whitened Error::whitened(const Block& block, const RowMajor& columns) const {
 }
 
 void Error::whiten(const RowMajor& columns, const std::vector<Whitened*>& blocks) const {
+  constexpr Index worth_a_thread = 1'000'000;  // products: what it takes to begin one
   std::vector<std::size_t> missing;
+  Index products = 0;
   for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (blocks[b]->gram.size() == 0) missing.push_back(b);
+    if (blocks[b]->gram.size() == 0) {
+      missing.push_back(b);
+      products += rows_->blocks[b].rows * columns.cols() * columns.cols();
+    }
   std::atomic<std::size_t> next{0};
-  run::side_by_side(threads_, missing.size(), [&] {
+  const auto most = std::min(missing.size(), 1 + static_cast<std::size_t>(products / worth_a_thread));
+  run::side_by_side(threads_, most, [&] {
     for (std::size_t i = next++; i < missing.size(); i = next++)
       *blocks[missing[i]] = whitened(rows_->blocks[missing[i]], columns);
   });

@@ -268,7 +268,8 @@ std::optional<law::UnitSize> unit_size(std::string_view unit) {
 }
 
 std::string meant_quantity(std::string_view text, std::string_view si_unit, const Usual& usual) {
-  const auto written = parse_number(split(text).number);
+  const std::string_view number = split(text).number;
+  const auto written = parse_number(number);
   if (!written || si_unit == "1") return "";
   const bool rad = si_unit == "rad" && std::abs(*written) <= std::numbers::pi;  // up to half a turn
   // Where nothing is usual: steps and offsets are of mm, and what is not small of a small unit.
@@ -282,7 +283,7 @@ std::string meant_quantity(std::string_view text, std::string_view si_unit, cons
     convert({&value, 1}, one, si_unit);
     if (value >= usual.lowest && value <= usual.highest &&
         (usual.value == 0.0 || std::abs(std::log10(value / usual.value)) < 1.0))
-      return fmt::format("{} {}", split(text).number, one) +
+      return fmt::format("{} {}", number, one) +
              (rad ? fmt::format(", which is {:.3g} deg", value / plant::degree_rad) : "");
   }
   return "";

@@ -1,7 +1,6 @@
 // Layout of the tables of runs.
 #include <algorithm>
 #include <optional>
-#include <ranges>
 
 #include <fmt/format.h>
 
@@ -192,7 +191,7 @@ std::string lines_of_moves(const domain::Scenario& scenario, const run::Comparis
       return angle ? sample.angle_rad / plant::degree_rad
                    : 1e3 * scenario.rig.muscle.rest_length_m * sample.state.joint.contraction_ratio;
     };
-    const auto [low, high] = std::ranges::minmax(run.recording.samples | std::views::transform(place));
+    const auto [low, high] = run::span_of(run.recording.samples, place);
     const auto shown = [](double value) { return fmt::format("{:.2f}", value); };
     grid.add(head, {shown(low), shown(high), shown(high - low), shown(place(run.recording.samples.back())),
                     cell(run.metrics.air_kg, 1e3, 3),

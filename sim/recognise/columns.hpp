@@ -38,9 +38,6 @@ void unit_of_either_duty(ColumnGuess& command, const KnownRig& rig);
 
 /// What a rig that nobody has described has as its valve, if duties command it; nothing if none do.
 std::vector<Setting> valve_of_duties(const MapGuess& map, const UnknownTable& table);
-/// What else a valve may be whose commands have no unit.
-inline constexpr const char* of_valves_that_are_open_or_shut =
-    ", or on_off, which is open or shut (then delete zero_pressure and span_pressure)";
 
 /// A command that was recorded as a share, of the valve's range or as a duty: the rig's unit, zero and
 /// factor. Of two valves a duty below 0 vents (sim/ride/switch.cpp).

@@ -13,16 +13,15 @@ namespace {
 constexpr double percent = 100.0, eight_bits = 255.0;
 
 /// What shares are of a valve's commands. Of two valves that are open or shut they go from -1, venting, to 1.
-class Share {
- public:
+struct Share {
   explicit Share(const plant::Valve& valve)
       : two(valve.is_on_off() && valve.ports == plant::Ports::two),
         unit(name_of(valve.command_unit)),
-        of_whole_((valve.span_command - valve.zero_command) / (two ? 2.0 : 1.0)),
-        at_0(valve.zero_command + (two ? of_whole_ : 0.0)) {}
+        of_whole((valve.span_command - valve.zero_command) / (two ? 2.0 : 1.0)),
+        at_0(valve.zero_command + (two ? of_whole : 0.0)) {}
 
-  std::string factor(double whole) const { return fmt::format("{:.12g}", of_whole_ / whole); }
-  std::string zero(double whole) const { return fmt::format("{:.12g}", 0.0 - at_0 * whole / of_whole_); }
+  std::string factor(double whole) const { return fmt::format("{:.12g}", of_whole / whole); }
+  std::string zero(double whole) const { return fmt::format("{:.12g}", 0.0 - at_0 * whole / of_whole); }
   /// What to write if that is the whole.
   std::string line(double whole) const {
     return fmt::format("unit: {}, zero: {}, factor: {}", unit, zero(whole), factor(whole));
@@ -33,19 +32,14 @@ class Share {
   }
   /// If the command at 0 is where they vent, and half of the whole shuts both.
   std::string line_from_venting(double whole) const {
-    const double factor = 2.0 * of_whole_ / whole;
-    return fmt::format("unit: {}, zero: {:.12g}, factor: {:.12g}", unit, 0.0 - (at_0 - of_whole_) / factor,
+    const double factor = 2.0 * of_whole / whole;
+    return fmt::format("unit: {}, zero: {:.12g}, factor: {:.12g}", unit, 0.0 - (at_0 - of_whole) / factor,
                        factor);
   }
 
   bool two;
   std::string unit;
-
- private:
-  double of_whole_;
-
- public:
-  double at_0;
+  double of_whole, at_0;  ///< commands
 };
 
 /// Whether pressure or muscle go both ways while the command stays above 0, so that something vents there.

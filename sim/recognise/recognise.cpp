@@ -339,7 +339,9 @@ class Recogniser {
       set("valve.kind",
           left_open(std::string("regulator, which keeps its target pressure (then also time_constant), or "
                                 "servo, whose opening follows the error") +
-                    (unit.empty() ? of_valves_that_are_open_or_shut : "")));
+                    (unit.empty() ? ", or on_off, which is open or shut (then delete zero_pressure and "
+                                    "span_pressure)"
+                                  : "")));
     if (unit == "bar") {
       const std::string span = fmt::format("{} bar", std::ceil(range.high));
       command_range("0 bar", span, "a command in bar is the pressure itself; " + recorded);

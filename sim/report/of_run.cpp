@@ -1,7 +1,6 @@
 // The report of `run`: which controller follows best, rmse by target, load and controller, and the runs that
 // are compared with each other, drawn together; of two muscles also those under given currents.
 #include <algorithm>
-#include <ranges>
 #include <span>
 #include <variant>
 
@@ -65,7 +64,7 @@ std::string sentence_of_given(const Scenario& scenario, const Comparison& compar
   for (const auto& run : comparison.runs) {
     if (run.controller != controller || !run.failure.empty() || run.recording.samples.empty()) continue;
     const auto ratio = [](const plant::Sample& sample) { return sample.state.joint.contraction_ratio; };
-    const auto [low, high] = std::ranges::minmax(run.recording.samples | std::views::transform(ratio));
+    const auto [low, high] = run::span_of(run.recording.samples, ratio);
     text += fmt::format("{} {} kg by {}", text.empty() ? ": it moves" : ",", domain::write_kg(run.load_kg),
                         full_length_html(high - low, scenario.rig, 1));
   }

@@ -36,9 +36,10 @@ struct AtLoad {
   std::string words;
 };
 
-/// All that the orders need and the data set lacks, in one message; empty if nothing.
+/// All that the orders need and the data set lacks, in one message; empty if nothing. `more`: whether more of
+/// the same would help.
 std::string too_few(const domain::Dataset& dataset, const Orders& orders, const std::vector<AtLoad>& there,
-                    std::size_t merged_loads) {
+                    std::size_t merged_loads, bool more = true) {
   constexpr int highest_speed_order = 2, highest_load_order = 3;  // T 4.13, T 4.15
   const auto loads = static_cast<std::size_t>(std::min(orders.load, highest_load_order)) + 1;
   const auto speeds = static_cast<std::size_t>(std::min(orders.speed, highest_speed_order)) + 1;
@@ -56,13 +57,15 @@ std::string too_few(const domain::Dataset& dataset, const Orders& orders, const 
       dataset.rig.command_unit(),
       fmt::format(
           "calibrate needs {} load{} and, with each, {} speed{} of the current. There {} {} load{} ({} "
-          "kg{}){}. Measure {}{}{}, or set {}{}{}",
+          "kg{}){}. {} {}{}{}",
           loads, loads == 1 ? "" : "s", speeds, speeds == 1 ? "" : "s", there.size() == 1 ? "is" : "are",
           there.size(), there.size() == 1 ? "" : "s", kg,
           merged_loads > 0 ? "; loads within 0.1 % of each other are one" : "",
-          lacking.empty() ? "" : "; too few speeds with " + lacking, few_loads ? "more loads" : "",
-          few_loads && !lacking.empty() ? " and " : "",
-          lacking.empty() ? "" : "sines or triangles of more periods",
+          lacking.empty() ? "" : "; too few speeds with " + lacking,
+          more ? fmt::format("Measure {}{}{}, or set", few_loads ? "more loads" : "",
+                             few_loads && !lacking.empty() ? " and " : "",
+                             lacking.empty() ? "" : "sines or triangles of more periods")
+               : "Or set",
           few_loads ? fmt::format("--load-order {}", there.size() - 1) : "",
           few_loads && !lacking.empty() ? " " : "",
           lacking.empty() ? "" : fmt::format("--speed-order {}", fewest - 1)));
@@ -97,8 +100,8 @@ void check_effects(const domain::Dataset& dataset, Wrong& wrong) {
              changed)});
 }
 
-/// Enough loads and speeds for the orders that are asked for. If too few because nothing moved, more of the
-/// same would not help: the cause leads.
+/// Enough loads and speeds for the orders that are asked for. If too few because nothing moved, the cause
+/// leads.
 void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options& options, Wrong& wrong) {
   std::vector<AtLoad> there;
   for (const double load_kg : grid.loads_kg) {
@@ -107,9 +110,9 @@ void check_grid(const domain::Dataset& dataset, const Grid& grid, const Options&
       if (cell.load_kg == load_kg) found.push_back(cell.speed_mA_per_s);
     there.push_back({load_kg, found.size(), listed(found) + " mA/s"});
   }
-  const std::string short_of = too_few(dataset, options.orders, there, grid.merged_loads);
-  if (short_of.empty()) return;
   const std::string still = grid.still_runs(dataset.rig.valve);
+  const std::string short_of = too_few(dataset, options.orders, there, grid.merged_loads, still.empty());
+  if (short_of.empty()) return;
   wrong.push_back({.message = still.empty() ? short_of + runs_left_out(grid)
                                             : fmt::format("{}. Without these runs, {}", still, short_of)});
 }

@@ -83,23 +83,6 @@ class Env(unittest.TestCase):
         env.reset(seed=1)
         self.assertEqual(len(env.history["time_s"]), 0)
 
-    def test_its_history_has_the_rewards_of_a_subclass(self):
-        class Gentle(mckibben.Env):
-            def step(self, action):
-                seen, reward, *rest = super().step(action)
-                return seen, reward - 5.0, *rest
-
-        class Gentler(Gentle):
-            def step(self, action):
-                seen, reward, *rest = super().step(action)
-                return seen, 0.5 * reward, *rest
-
-        env = Gentler(duration_s=0.6)
-        env.reset(seed=1)
-        rewards = [env.step([0.2])[1] for _ in range(5)]
-        self.assertEqual(env.history["reward"].tolist(), rewards)
-        self.assertLess(max(rewards), -2.4)
-
     def test_rigs_that_lift_no_load_are_refused(self):
         for kind in ("lever", "held_length"):
             with self.assertRaisesRegex(ValueError, f"a pair of muscles; this rig's mechanics are {kind}"):

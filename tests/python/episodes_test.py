@@ -65,6 +65,23 @@ class Episodes(unittest.TestCase):
         self.assertTrue(0.001 < numpy.std(read - true) < 0.003, numpy.std(read - true))
         numpy.testing.assert_allclose(many.episodes[0].history["contraction_ratio"], read, atol=1e-12)
 
+    def test_its_history_has_the_rewards_of_a_subclass(self):
+        class Gentle(mckibben.Env):
+            def step(self, action):
+                seen, reward, *rest = super().step(action)
+                return seen, reward - 5.0, *rest
+
+        class Gentler(Gentle):
+            def step(self, action):
+                seen, reward, *rest = super().step(action)
+                return seen, 0.5 * reward, *rest
+
+        env = Gentler(duration_s=0.6)
+        env.reset(seed=1)
+        rewards = [env.step([0.2])[1] for _ in range(5)]
+        self.assertEqual(env.history["reward"].tolist(), rewards)
+        self.assertLess(max(rewards), -2.4)
+
     def test_others_can_have_its_target(self):
         for keys, controller in (({"rig": mckibben.env.drawn_rig, "target": mckibben.env.drawn_target}, {"kind": "pid"}),
                                  ({"rig": "thesis_pair"}, {"kind": "pid"})):

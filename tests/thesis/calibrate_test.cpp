@@ -232,6 +232,8 @@ TEST(BadData, WhereNothingMovesThatLeads) {
   EXPECT_TRUE(says(text, "What helps: a larger current, up to the valve's 20 mA"));
   EXPECT_TRUE(
       says(text, "Without these runs, calibrate needs 4 loads and, with each, 3 speeds of the current"));
+  EXPECT_FALSE(says(text, "Measure more loads"));
+  EXPECT_TRUE(says(text, "Or set --load-order 1"));
 }
 
 TEST(BadData, WithTheWholeCurrentALighterLoadHelps) {

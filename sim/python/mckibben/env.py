@@ -80,7 +80,8 @@ class Env(Base):
         function that makes one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s, of a
         pair from -15 to 15 deg. `loads_kg`: a load, or two between which each episode draws its
         own; if left out, three quarters to one and a half of the rig's `usual_load_kg`.
-        `jitter`: root mean square of what shakes the position before it is counted, as a contraction ratio [1] or an angle [rad].
+        `jitter`: root mean square of what shakes the position before it is counted, as a contraction ratio [1] or an
+        angle [rad].
         Nothing is rendered: plot `history`. Raises InputError, ValueError."""
         _no_rendering(render_mode)
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
