@@ -363,6 +363,16 @@ struct Channel {
   std::string name_in_dataset() const;
   std::string words() const;
   std::string words_in_dataset() const;
+  /// By its key in a data set, without the muscle's number; muscle 1 is that of one muscle, too.
+  bool is(std::string_view in_dataset, std::size_t of_muscle = 1) const {
+    return signal->in_dataset == in_dataset && (muscle == 2) == (of_muscle == 2);
+  }
+  /// Of a muscle; a pressure that is commanded is none.
+  bool is_pressure() const {
+    return signal->unit.name == units::bar.name && signal->part == Part::muscle &&
+           signal->kind != Kind::input;
+  }
+  friend bool operator==(const Channel&, const Channel&) = default;
   /// In its unit.
   double value(const Sample& row) const { return signal->value(row, muscle) / signal->unit.size; }
   /// In the unit of a page.

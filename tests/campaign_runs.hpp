@@ -37,17 +37,16 @@ inline domain::Run measured(const domain::Campaign& campaign, const CampaignRun&
   table.file = run.job.id + ".csv";
   table.load_kg = run.job.load_kg;
   const double per_count = contraction_per_count(campaign.rig);
-  if (campaign.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr) table.muscle_pressure_Pa.emplace();
+  const bool angle = campaign.rig.has_angle();
+  std::vector<double>& position = table.read(angle ? "angle" : "contraction").values;
   for (const Sample& sample : run.recording.samples) {
     table.current_mA.push_back(sample.current_mA);
-    if (campaign.rig.has_angle())
-      table.angle_rad.push_back(sample.read_angle_rad);
-    else
-      table.contraction_ratio.push_back(static_cast<double>(sample.counts) * per_count);
-    if (table.muscle_pressure_Pa)
-      table.muscle_pressure_Pa->push_back(sample.shown[plant::Sensed::muscle_pressure]);
-    if (campaign.rig.sensors.of(plant::Sensed::force) != nullptr)
-      table.force_N.push_back(sample.shown[plant::Sensed::force]);
+    position.push_back(angle ? sample.read_angle_rad : static_cast<double>(sample.counts) * per_count);
+  }
+  for (const plant::Sensed beside : {plant::Sensed::muscle_pressure, plant::Sensed::force}) {
+    if (campaign.rig.sensors.of(beside) == nullptr) continue;
+    std::vector<double>& read = table.read(name_of(beside)).values;
+    for (const Sample& sample : run.recording.samples) read.push_back(sample.shown[beside]);
   }
   return table;
 }

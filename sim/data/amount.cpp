@@ -49,8 +49,8 @@ std::string_view unit_in_words(Judged judged) {
   return "in contraction ratio";
 }
 
-std::pair<std::string, std::string_view> told(domain::Beside which, bool pair) {
-  return {domain::channel_of(which, pair).key_in_dataset(), which == domain::Beside::force ? "N" : "Pa"};
+std::string_view si_unit(const plant::Signal& signal) {
+  return signal.unit.name == plant::units::bar.name ? "Pa" : signal.unit.name;
 }
 
 double reading_per_count(const plant::Rig& rig) {

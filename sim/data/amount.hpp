@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include <sim/domain/dataset.hpp>
 
@@ -16,8 +15,8 @@ std::string amount_of(Judged judged, double value, const plant::Rig& rig, int di
 /// What such numbers are in: "in contraction ratio", "N", "rad".
 std::string_view unit_in_words(Judged judged);
 
-/// A reading beside the one that is judged, and its SI unit.
-std::pair<std::string, std::string_view> told(domain::Beside which, bool pair);
+/// The unit in which readings of it are calculated: Pa of what its columns hold in bar.
+std::string_view si_unit(const plant::Signal& signal);
 
 /// One count of the encoder in the reading that is judged: contraction ratio, or joint angle [rad] of a pair.
 double reading_per_count(const plant::Rig& rig);

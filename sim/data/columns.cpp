@@ -24,7 +24,7 @@
 namespace mckibben::data {
 namespace {
 
-using domain::Beside, domain::ColumnPlace, domain::line_of;
+using domain::ColumnPlace, domain::line_of;
 using Series = std::vector<double>;
 
 constexpr const ColumnThresholds& of_columns = thresholds.column;
@@ -106,15 +106,15 @@ class Columns {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const domain::Run& run = data_.runs[i];
       map_ = with_our_names(domain::merged(data_.columns, run.columns), data_.rig.command_unit());
-      const bool hangs = data_.judged() == domain::Judged::contraction && !run.contraction_ratio.empty();
+      const bool hangs = data_.judged() == domain::Judged::contraction && run.find("contraction") != nullptr;
       const bool of_mA = data_.rig.command_unit() == plant::CommandUnit::mA;
       if (hangs && !data_.own_clock && of_mA) {  // else ranges of the rig's valve have been looked at
         if (exchanged(i)) continue;
         current(i);
       }
       if (hangs) judge(contraction(run), compared(i));
-      for (const Beside which : domain::besides)
-        if (which != Beside::force) gauge(i, which);
+      for (std::size_t reading = 1; reading < run.readings.size(); ++reading)
+        if (run.readings[reading].channel.is_pressure()) gauge(i, reading);
     }
     for (const auto& [line, gauge] : gauges_)
       if (auto found = other_gain(gauge.second, gauge.first.key, gauge.first.place))
@@ -123,13 +123,16 @@ class Columns {
         with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
     Compared all, beside;
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
+      const auto& readings = data_.runs[i].readings;
       all.add(i, data_.runs[i], expected_[i]);
-      beside.add(i, data_.runs[i], expected_[i], Beside::force);
+      for (std::size_t reading = 1; reading < readings.size(); ++reading)
+        if (readings[reading].channel.is("force")) beside.add(i, data_.runs[i], expected_[i], reading);
     }
     if (data_.judged() == domain::Judged::contraction && findings_.empty()) only_gain_or_zero(all);
     if (data_.judged() == domain::Judged::angle) angle(all);
     if (data_.judged() == domain::Judged::force) force(all, false);
-    if (const auto which = data_.runs.front().judged_gauge()) judge(pressure(*which), all);
+    if (const domain::Reading& read = data_.runs.front().judged(); read.channel.is_pressure())
+      judge(pressure(read.channel), all);
     force(beside, true);
     if (data_.recorded.start != domain::Start::settled) return;
     const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::muscle_pressure);
@@ -140,9 +143,9 @@ class Columns {
   }
 
  private:
-  Compared compared(std::size_t i, std::optional<Beside> which = {}) const {
+  Compared compared(std::size_t i, std::size_t reading = 0) const {
     Compared rows;
-    rows.add(i, data_.runs[i], expected_[i], which);
+    rows.add(i, data_.runs[i], expected_[i], reading);
     return rows;
   }
 
@@ -192,8 +195,8 @@ class Columns {
           rows);
   }
 
-  Quantity pressure(Beside which) const {
-    const std::string key = told(which, data_.rig.pair() != nullptr).first;
+  Quantity pressure(const plant::Channel& gauge) const {
+    const std::string key = gauge.key_in_dataset();
     return {.key = key,
             .place = map_[key],
             .units = units_of_pressure(),
@@ -272,8 +275,9 @@ class Columns {
 
   bool exchanged(std::size_t i) {
     const domain::Run& run = data_.runs[i];
-    if (!run.muscle_pressure_Pa) return false;
-    const double most_bar = largest(*run.muscle_pressure_Pa) / plant::Pa_per_bar;
+    const domain::Reading* gauge = run.find("muscle_pressure");
+    if (gauge == nullptr) return false;
+    const double most_bar = largest(gauge->values) / plant::Pa_per_bar;
     const double supply_bar = data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar;
     if (most_bar < of_columns.beyond_rig * supply_bar ||
         most_bar > data_.rig.dac.largest_command + of_columns.rounding_mA ||
@@ -300,7 +304,7 @@ class Columns {
     if (most_mA > 0.0 && most_mA < valve.span_command * of_columns.amperes)
       find("current", {i}, never,
            mend("; this looks like amperes, not mA", line_in_unit("current", amperes)));
-    else if (most_mA < valve.zero_command && range(run.contraction_ratio) > moving())
+    else if (most_mA < valve.zero_command && range(run.judged().values) > moving())
       find("current", {i}, never,
            fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
                        "another unit, or a share of the range? unit, zero and factor in columns: current say "
@@ -308,10 +312,10 @@ class Columns {
                        valve.zero_command));
   }
 
-  void gauge(std::size_t i, Beside which) {
-    Compared rows = compared(i, which);
+  void gauge(std::size_t i, std::size_t reading) {
+    Compared rows = compared(i, reading);
     if (rows.measured.empty()) return;
-    const Quantity quantity = pressure(which);
+    const Quantity quantity = pressure(data_.runs[i].readings[reading].channel);
     if (!judge(quantity, rows)) return;
     const Line line(rows.measured, rows.model);
     const double atmosphere_Pa = data_.rig.gas.atmosphere_Pa, rest_Pa = off_at_rest(rows);

@@ -15,12 +15,12 @@ struct ReadAt {
   std::vector<double> time_s{}, values{};
 };
 
-ReadAt known_of(const domain::Run& run, const std::vector<double>& values, const std::vector<bool>& missing) {
+ReadAt known_of(const domain::Run& run, const domain::Reading& reading) {
   ReadAt known;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    if (!missing.empty() && missing[k]) continue;
+  for (std::size_t k = 0; k < reading.values.size(); ++k) {
+    if (reading.is_missing(k)) continue;
     known.time_s.push_back(run.time_s[k]);
-    known.values.push_back(values[k]);
+    known.values.push_back(reading.values[k]);
   }
   return known;
 }
@@ -32,7 +32,7 @@ std::vector<double> gaps_of(const std::vector<double>& time_s) {
 }
 
 void make_even(domain::Run& run, double row_s) {
-  const ReadAt read = known_of(run, run.contraction_ratio, run.missing);
+  const ReadAt read = known_of(run, run.judged());
   if (read.time_s.empty()) return;
   constexpr double rounding = 1e-6;
   const double begin_s = read.time_s.front(), zero_s = run.measured->time_s.front();
@@ -45,22 +45,16 @@ void make_even(domain::Run& run, double row_s) {
     for (const double at_s : time_s) values.push_back(column.between(column.last_before(at_s), at_s));
     return values;
   };
-  if (auto& gauge = run.muscle_pressure_Pa) {
-    auto& missing = run.missing_beside[static_cast<std::size_t>(domain::Beside::muscle_pressure)];
-    const ReadAt shown = known_of(run, *gauge, missing);
-    if (shown.time_s.empty())
-      gauge.reset();
-    else
-      gauge = straight(shown);
-    missing.clear();
-  }
+  std::vector<domain::Reading> even;
+  for (const domain::Reading& reading : run.readings)
+    if (const ReadAt known = known_of(run, reading); !known.time_s.empty())
+      even.push_back({reading.channel, straight(known)});
   const Column command(run.measured->time_s, run.measured->given("command"));
   const bool linear = run.measured->recorded.hold == domain::Hold::linear;
   run.current_mA.clear();
   for (const double at_s : time_s)
     run.current_mA.push_back(command.mean(zero_s + at_s, zero_s + at_s + row_s, linear));
-  run.contraction_ratio = straight(read);
-  run.missing.clear();
+  run.readings = std::move(even);
   run.time_s = std::move(time_s);
 }
 
@@ -72,7 +66,7 @@ Spacing spacing_of(const domain::Dataset& data) {
   Spacing found;
   std::vector<std::vector<double>> all;
   for (const domain::Run& run : data.runs) {
-    all.push_back(known_of(run, run.contraction_ratio, run.missing).time_s);
+    all.push_back(known_of(run, run.judged()).time_s);
     if (all.back().size() > 1) found.row_s = std::max(found.row_s, upper_median(gaps_of(all.back())));
   }
   if (std::abs(found.row_s - data.rig.tick_s) < is_tick * data.rig.tick_s) found.row_s = data.rig.tick_s;

@@ -38,8 +38,9 @@ class Readings {
 
   void operator()() {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
-      if (data_.runs[i].judged().size() != expected_[i].judged.size()) continue;
-      for (const domain::Beside which : domain::gauges) gauge(i, which);
+      if (data_.runs[i].rows() != expected_[i].judged().size()) continue;
+      for (std::size_t reading = 1; reading < data_.runs[i].readings.size(); ++reading)
+        if (data_.runs[i].readings[reading].channel.is_pressure()) gauge(i, reading);
       if (data_.judged() == domain::Judged::pressure)
         presses(i);
       else if (bench_)
@@ -71,22 +72,20 @@ class Readings {
     return data_.rows_begin_s() + static_cast<double>(row) * data_.row_s();
   }
 
-  void gauge(std::size_t i, domain::Beside which) {
-    const auto* const shown = data_.runs[i].beside(which);
-    if (shown == nullptr) return;
-    const Series& model = expected_[i].beside(which);
-    const std::string name = told(which, pair_).first + "_bar";
-    const bool constant = range(*shown) == 0.0;
+  void gauge(std::size_t i, std::size_t reading) {
+    const auto& [channel, shown, missing] = data_.runs[i].readings[reading];
+    const Series& model = expected_[i].readings[reading];
+    const std::string name = channel.name_in_dataset();
+    const bool constant = range(shown) == 0.0;
     const bool should_move = range(model) > of_readings.gauge_bar * plant::Pa_per_bar;
-    if (!constant && (!should_move || Line(*shown, model).slope > of_readings.gauge_slope)) {
-      mask_spikes(i, name, *shown, model, of_readings.gauge_step_Pa);
+    if (!constant && (!should_move || Line(shown, model).slope > of_readings.gauge_slope)) {
+      mask_spikes(i, name, shown, model, of_readings.gauge_step_Pa);
       return;
     }
-    (which == domain::Beside::muscle_pressure ? result_.dead_gauges : result_.dead_opposite_gauges)
-        .push_back(i);
+    result_.dead_gauges.push_back({i, channel});
     find(i, Severity::ignored, "",
          fmt::format("{} {}", name,
-                     constant ? fmt::format("is {:.4g} throughout", shown->front() / plant::Pa_per_bar)
+                     constant ? fmt::format("is {:.4g} throughout", shown.front() / plant::Pa_per_bar)
                               : "does not follow the " + command_));
   }
 
@@ -116,12 +115,12 @@ class Readings {
   }
 
   void presses(std::size_t i) {
-    const Series& values = data_.runs[i].judged();
+    const Series& values = data_.runs[i].judged().values;
     if (range(values) == 0.0)
       leave_out(i, fmt::format("the pressure is {:.4g} bar throughout: is the gauge connected?",
                                values.front() / plant::Pa_per_bar));
     else
-      mask_spikes(i, "the pressure", values, expected_[i].judged, of_readings.gauge_step_Pa);
+      mask_spikes(i, "the pressure", values, expected_[i].judged(), of_readings.gauge_step_Pa);
   }
 
   /// Runs whose load stayed on its stop, as the force of the rig says: then the number may be wrong, of the
@@ -142,7 +141,7 @@ class Readings {
         return !ratios.empty() && *std::ranges::max_element(ratios) < domain::hardly_lifted;
       };
       if (pressure_Pa.empty() || range(pressure_Pa) < of_readings.gauge_bar * plant::Pa_per_bar ||
-          !stays(run.judged()) || !stays(expected_[i].judged))
+          !stays(run.judged().values) || !stays(expected_[i].judged()))
         continue;
       const double highest_Pa = *std::ranges::max_element(pressure_Pa);
       if (domain::never_lifted(run.load_kg, data_.rig, highest_Pa).empty()) continue;
@@ -166,11 +165,11 @@ class Readings {
     const double dead_mA =
         data_.rig.valve.zero_command +
         of_readings.dead_current * (data_.rig.valve.span_command - data_.rig.valve.zero_command);
-    const double should = range(expected_[i].judged);
+    const double should = range(expected_[i].judged());
     if (largest_mA <= dead_mA)
       leave_out(i, fmt::format("the {} stays at or below {:.4g} {} and moves nothing", command_, largest_mA,
                                name_of(data_.rig.command_unit())));
-    else if (range(run.judged()) > of_readings.moving_counts * count_)
+    else if (range(run.judged().values) > of_readings.moving_counts * count_)
       return true;
     else if (should > of_readings.should_move_counts * count_)
       leave_out(i, fmt::format("the reading never changes, though the {0} should move by {1} (is the "
@@ -182,8 +181,8 @@ class Readings {
   }
 
   void readings(std::size_t i) {
-    const Series& values = data_.runs[i].judged();
-    const Series& model = expected_[i].judged;
+    const Series& values = data_.runs[i].judged().values;
+    const Series& model = expected_[i].judged();
     std::vector<bool>& masked = result_.masked[i];
     const Series sharpest = sharpest_nearby(model, data_.row_s());
     const auto absent = std::count(masked.begin(), masked.end(), true);  // no fault: read at other stamps
@@ -212,7 +211,7 @@ class Readings {
   // What a sensor reads at the end of its range is no position.
   void range_ends(std::size_t i) {
     const plant::Sensor& sensor = data_.rig.sensors.position();
-    const Series& values = data_.runs[i].judged();
+    const Series& values = data_.runs[i].judged().values;
     const double step = reading_per_count(data_.rig);
     std::size_t ended = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -231,7 +230,7 @@ class Readings {
 
   // What ends at the same value again and again is told once.
   void stand_still(std::size_t i, const std::vector<Still>& stills) {
-    const auto value = [&](const Still& still) { return data_.runs[i].judged()[still.begin]; };
+    const auto value = [&](const Still& still) { return data_.runs[i].judged().values[still.begin]; };
     for (auto still = stills.begin(); still != stills.end(); ++still) {
       if (still->why == Still::Why::stuck) {
         stuck(i, *still);
@@ -269,8 +268,9 @@ class Readings {
   void copies() {
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const auto same = [&](const domain::Run& run) {
-        return run.judged() == data_.runs[i].judged() && run.current_mA == data_.runs[i].current_mA &&
-               run.missing == data_.runs[i].missing &&
+        return run.judged().values == data_.runs[i].judged().values &&
+               run.judged().missing == data_.runs[i].judged().missing &&
+               run.current_mA == data_.runs[i].current_mA &&
                ((!bench_ && !pair_) || same_inputs(*run.measured, *data_.runs[i].measured));
       };
       const auto last = data_.runs.begin() + static_cast<std::ptrdiff_t>(i);
@@ -294,8 +294,8 @@ class Readings {
 Examined examine(const domain::Dataset& data, const std::vector<Expected>& expected) {
   Examined result;
   for (const domain::Run& run : data.runs)
-    result.masked.push_back(run.missing.empty() ? std::vector<bool>(run.judged().size(), false)
-                                                : run.missing);
+    result.masked.push_back(run.judged().missing.empty() ? std::vector<bool>(run.rows(), false)
+                                                         : run.judged().missing);
   result.left_out.assign(data.runs.size(), false);
   check_columns(data, expected, result.findings);
   if (!result.findings.empty()) return result;  // the wrong numbers would weigh wrong

@@ -14,28 +14,26 @@ namespace mckibben::data {
 /// What the rig would do in a run, a value each row; empty if it was not simulated, shorter if not to its
 /// end.
 struct Expected {
-  std::vector<double> judged{};  ///< contraction ratio; the cord's force [N] at a given length; angle [rad]
-  std::vector<double> pressure_Pa{}, opposite_pressure_Pa{};  ///< the latter of a pair only
-  // Where they were read beside: force of the cord, pressures in the valves.
-  std::vector<double> force_N{}, valve_pressure_Pa{}, opposite_valve_pressure_Pa{};
+  std::vector<std::vector<double>> readings{};  ///< as the run's
+  std::vector<double> pressure_Pa{};            ///< of muscle 1, also where it was not read
 
-  std::vector<double>& beside(domain::Beside which) {
-    using enum domain::Beside;
-    if (which == force) return force_N;
-    if (which == valve_pressure) return valve_pressure_Pa;
-    if (which == opposite_valve_pressure) return opposite_valve_pressure_Pa;
-    return which == muscle_pressure ? pressure_Pa : opposite_pressure_Pa;
+  const std::vector<double>& judged() const {
+    static const std::vector<double> none;
+    return readings.empty() ? none : readings.front();
   }
-  const std::vector<double>& beside(domain::Beside which) const {
-    return const_cast<Expected*>(this)->beside(which);
-  }
+};
+
+/// A gauge of a run that says nothing.
+struct DeadGauge {
+  std::size_t run;
+  plant::Channel channel;
 };
 
 struct Examined {
   std::vector<Finding> findings{};          ///< one that is refused: nothing else was looked for
   std::vector<std::vector<bool>> masked{};  ///< [run][row]: readings that are not the load's
   std::vector<bool> left_out{};             ///< [run]: a diagnosis does without it
-  std::vector<std::size_t> dead_gauges{}, dead_opposite_gauges{};  ///< runs whose gauge says nothing
+  std::vector<DeadGauge> dead_gauges{};
 };
 
 /// Columns and loads; if they are what they are called, single readings and jumps that no load could follow,

@@ -85,12 +85,11 @@ std::optional<Finding> other_zero_at_rest(const domain::Dataset& data, const std
   std::vector<double> offs;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     const domain::Run& run = data.runs[i];
-    if (run.contraction_ratio.empty() || expected[i].judged.empty() ||
-        (!run.missing.empty() && run.missing.front()))
-      continue;
+    const domain::Reading* read = run.find("contraction");
+    if (read == nullptr || expected[i].judged().empty() || read->is_missing(0)) continue;
     const double pull_N = braid.force_N(thresholds.load.lifted, expected[i].pressure_Pa.front());
     if (!(pull_N < of_gains.hardly_pulls * run.load_kg * plant::gravity_m_per_s2)) continue;
-    const double off = run.contraction_ratio.front() - expected[i].judged.front();
+    const double off = read->values.front() - expected[i].judged().front();
     if (std::abs(off) < of_gains.off_at_rest) continue;
     runs.push_back(i);
     offs.push_back(off);
@@ -114,10 +113,11 @@ std::optional<Finding> beyond_the_rig(const domain::Dataset& data, const std::ve
     return ratios.empty() ? 0.0 : *std::ranges::max_element(ratios);
   };
   double rig = plant::Braid(data.rig.muscle).largest_contraction_ratio(), most = 0.0;
-  for (const Expected& one : expected) rig = std::max(rig, most_of(one.judged));
+  for (const Expected& one : expected) rig = std::max(rig, most_of(one.judged()));
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    const double reached = most_of(data.runs[i].contraction_ratio);
+    const domain::Reading* read = data.runs[i].find("contraction");
+    const double reached = read != nullptr ? most_of(read->values) : 0.0;
     if (reached < of_gains.beyond_reach * rig) continue;
     runs.push_back(i);
     most = std::max(most, reached);
@@ -142,20 +142,20 @@ std::optional<Finding> reversed_flow(const domain::Dataset& data) {
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     const domain::Run& run = data.runs[i];
-    const std::vector<double>&read = run.judged(), &command = run.current_mA;
-    const std::vector<double>* gauge = run.beside(domain::Beside::muscle_pressure);
+    const std::vector<double>&read = run.judged().values, &command = run.current_mA;
+    const domain::Reading* gauge = run.find("muscle_pressure");
     if (command.size() != read.size() || read.size() <= rows) continue;
     runs.push_back(i);
-    const auto missing = [&](std::size_t row) { return !run.missing.empty() && run.missing[row]; };
     const double least = of_gains.flow_share * range(read);
     for (std::size_t k = 0; k + rows < read.size(); k += rows) {
       const double rise = read[k + rows] - read[k];
-      if (missing(k) || missing(k + rows) || !(std::abs(rise) > least)) continue;
+      if (run.judged().is_missing(k) || run.judged().is_missing(k + rows) || !(std::abs(rise) > least))
+        continue;
       double fills = 0.0;
       for (std::size_t row = k; row < k + rows; ++row) fills += 2.0 * valve.way(command[row]) - 1.0;
       along += fills * rise;
       all += std::abs(fills * rise);
-      const double by_gauge = gauge != nullptr ? fills * ((*gauge)[k + rows] - (*gauge)[k]) : 0.0;
+      const double by_gauge = gauge != nullptr ? fills * (gauge->values[k + rows] - gauge->values[k]) : 0.0;
       if (!std::isfinite(by_gauge)) continue;
       pressed += by_gauge;
       all_pressed += std::abs(by_gauge);

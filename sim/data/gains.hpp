@@ -17,17 +17,16 @@ struct Compared {
   std::vector<std::size_t> runs{};
   std::vector<double> measured{}, model{};
 
-  /// Rows of a run in which what is judged, or what is read beside it, is there; nothing if it was not read,
-  /// or the simulation ended early.
-  void add(std::size_t place, const domain::Run& run, const Expected& expected,
-           std::optional<domain::Beside> beside = {}) {
-    const std::vector<double>* read = beside ? run.beside(*beside) : &run.judged();
-    const std::vector<double>& simulated = beside ? expected.beside(*beside) : expected.judged;
-    if (read == nullptr || read->size() != simulated.size()) return;
+  /// Rows of a run in which one of its readings is there; nothing if the simulation ended early.
+  void add(std::size_t place, const domain::Run& run, const Expected& expected, std::size_t reading = 0) {
+    if (reading >= expected.readings.size()) return;
+    const domain::Reading& read = run.readings[reading];
+    const std::vector<double>& simulated = expected.readings[reading];
+    if (read.values.size() != simulated.size()) return;
     runs.push_back(place);
-    for (std::size_t k = 0; k < read->size(); ++k) {
-      if (beside ? run.is_missing(*beside, k) : !run.missing.empty() && run.missing[k]) continue;
-      measured.push_back((*read)[k]);
+    for (std::size_t k = 0; k < simulated.size(); ++k) {
+      if (read.is_missing(k)) continue;
+      measured.push_back(read.values[k]);
       model.push_back(simulated[k]);
     }
   }

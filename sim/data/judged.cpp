@@ -1,7 +1,10 @@
 // Averages over neighbours, run by run; see the header.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <random>
+#include <string_view>
 #include <utility>
 
 #include <sim/data/judged.hpp>
@@ -48,8 +51,9 @@ class Judging {
   }
 
   std::size_t slack = 0;  ///< rows without a force
-  /// Of single readings, a value for each row: of what is judged, of gauges, of a force beside it.
-  std::vector<double> squares{}, pressure_squares{}, force_squares{}, valve_squares{};
+  /// Of single readings, a value for each row: of what is judged, of other signals by their keys.
+  std::vector<double> squares{};
+  std::map<std::string_view, std::vector<double>> squares_beside{};
   double gain_sum = 0.0, readings_sum = 0.0, given_noise_Pa = 0.0, step = 0.0;
   bool fast() const { return fast_; }
 
@@ -125,7 +129,7 @@ class Judging {
     return thin;
   }
 
-  static bool is_length(const MeasuredColumn& column) { return column.is("contraction", 1); }
+  static bool is_length(const MeasuredColumn& column) { return column.channel.is("contraction"); }
 
   /// Adds the inputs of a quarter, at every stamp where one of them jumps or bends.
   void follow(Measurement& thin, const std::vector<Input>& inputs, double from_s, double to_s) const {
@@ -177,91 +181,55 @@ class Judging {
     return std::isnan(smooth) ? raw : smooth;
   }
 
-  /// A reading beside the one that is judged: as it was recorded, where its rows go and what it scatters.
-  struct Beside {
-    const std::vector<double>& recorded;
-    std::vector<double>& rows;
-    std::vector<bool>& missing;
-    std::vector<double>& squares;
-  };
-  std::vector<Beside> besides() {
-    std::vector<Beside> list;
-    const auto add = [&](domain::Beside which, const auto& recorded, auto& rows, auto& left) {
-      list.push_back({recorded, rows, run_.missing_beside[static_cast<std::size_t>(which)], left});
-    };
-    const auto gauge = [&](domain::Beside which, auto& left) {
-      if (const auto& read = shown_by(which); is_read(read) && which != judged_gauge_)
-        add(which, read, run_.gauge(which).emplace(), left);
-    };
-    for (const domain::Beside which : domain::gauges) gauge(which, pressure_squares);
-    for (const domain::Beside which : domain::valve_gauges) gauge(which, valve_squares);
-    if (const auto& read_N = raw_.read("force"); !raw_.gives_length() && is_read(read_N))
-      add(domain::Beside::force, read_N, run_.force_N, force_squares);
-    return list;
-  }
-
-  const std::vector<double>& shown_by(domain::Beside gauge) const {
-    const plant::Channel channel = domain::channel_of(gauge, true);
-    return raw_.read(channel.signal->in_dataset, channel.muscle);
-  }
-
-  /// The reading that is judged, as it was recorded, and where its rows go.
-  std::pair<const std::vector<double>&, std::vector<double>&> judged() {
-    if (raw_.reads_only_pressures()) {
-      judged_gauge_ =
-          *std::ranges::find_if(domain::besides, [&](auto which) { return is_read(shown_by(which)); });
-      return {shown_by(*judged_gauge_), run_.gauge(*judged_gauge_).emplace()};
+  /// The reading that is judged, then what was read beside it, as they were recorded.
+  std::vector<const MeasuredColumn*> columns() const {
+    const bool only_pressures = raw_.reads_only_pressures();
+    const std::string_view judged = only_pressures        ? "muscle_pressure"
+                                    : angle_              ? "angle"
+                                    : raw_.gives_length() ? "force"
+                                                          : "contraction";
+    std::vector<const MeasuredColumn*> list;
+    for (const MeasuredColumn& column : raw_.columns) {
+      const bool first = column.channel.is(judged);
+      if (column.given || !(is_read(column.values) || (first && !only_pressures))) continue;
+      list.insert(first ? list.begin() : list.end(), &column);
     }
-    if (angle_) return {raw_.read("angle"), run_.angle_rad};
-    if (raw_.gives_length()) return {raw_.read("force"), run_.force_N};
-    return {raw_.read("contraction"), run_.contraction_ratio};
+    return list;
   }
 
   /// What the readings say at each row.
   void judge(const Measurement& driving) {
-    const auto [readings, rows] = judged();
-    const std::vector<double>& current_mA = driving.given("command");
-    const std::vector<Beside> others = besides();
-    for (const std::size_t stamp : driving.rows) {
-      const double at_s = driving.time_s[stamp];
-      const auto read = [&](const std::vector<double>& values, std::vector<double>& left) {
-        const Column column(raw_.time_s, values);
-        if (!fast_) return Together{.value = column[stamp], .gain = 1.0, .readings = 1};
-        const Together near = column.near(at_s, 0.5 * row_s_);
-        if (!std::isnan(near.value)) left.push_back(near.squares);
-        return near;
-      };
-      const Together all = read(readings, squares);
-      run_.missing.push_back(std::isnan(all.value));
-      for (const Beside& other : others) {
-        other.rows.push_back(read(other.recorded, other.squares).value);
-        other.missing.push_back(std::isnan(other.rows.back()));
+    const std::vector<const MeasuredColumn*> list = columns();
+    for (const MeasuredColumn* column : list) {
+      const bool judged = column == list.front();
+      auto& left = judged ? squares : squares_beside[column->channel.signal->key];
+      domain::Reading& reading = run_.readings.emplace_back(column->channel);
+      const Column recorded(raw_.time_s, column->values);
+      for (const std::size_t stamp : driving.rows) {
+        const Together near = fast_ ? recorded.near(driving.time_s[stamp], 0.5 * row_s_)
+                                    : Together{.value = recorded[stamp], .gain = 1.0, .readings = 1};
+        const bool missing = std::isnan(near.value);
+        if (fast_ && !missing) left.push_back(near.squares);
+        reading.values.push_back(near.value);
+        reading.missing.push_back(missing);
+        if (!judged) continue;
+        gain_sum += near.gain;
+        readings_sum += static_cast<double>(near.readings);
       }
-      run_.time_s.push_back(at_s - begin_s());
-      rows.push_back(all.value);
+      fill(reading.values);
+      if (!fast_) {
+        const double noise = noise_of_slow(column->values);
+        if (judged && noise > 0.0) left = {noise * noise};
+        if (!judged) left.push_back(noise * noise);
+      }
+    }
+    const std::vector<double>& current_mA = driving.given("command");
+    for (const std::size_t stamp : driving.rows) {
+      run_.time_s.push_back(driving.time_s[stamp] - begin_s());
       if (!current_mA.empty()) run_.current_mA.push_back(current_mA[stamp]);
-      gain_sum += all.gain;
-      readings_sum += static_cast<double>(all.readings);
     }
-    fill(rows);
-    for (const Beside& other : others) fill(other.rows);
     // What points scatter by holds it; and steps of force that are even, as pressures are, look like one.
-    if (raw_.point_s == 0.0) step = step_of(readings);
-    if (!fast_) note_slow_noise(readings);
-  }
-
-  void note_slow_noise(const std::vector<double>& readings) {
-    if (const double noise = noise_of_slow(readings); noise > 0.0) squares = {noise * noise};
-    pressure_squares.clear();
-    valve_squares.clear();
-    for (const std::size_t muscle : {1U, 2U}) {
-      if (const auto& gauge = raw_.values("muscle_pressure", muscle); is_read(gauge))
-        pressure_squares.push_back(std::pow(noise_of_slow(gauge), 2));
-      if (const auto& gauge = raw_.read("valve_pressure", muscle); is_read(gauge))
-        valve_squares.push_back(std::pow(noise_of_slow(gauge), 2));
-    }
-    if (const auto& cell = raw_.read("force"); is_read(cell))
-      force_squares = {std::pow(noise_of_slow(cell), 2)};
+    if (raw_.point_s == 0.0) step = step_of(list.front()->values);
   }
 
   double noise_of_slow(const std::vector<double>& readings) const {
@@ -305,7 +273,7 @@ class Judging {
       for (const std::size_t stamp : driving.rows)
         left.push_back(column.near(driving.time_s[stamp], 0.5 * row_s_).squares);
     const double level = fast_ ? noise_of(left) : slow_noise(readings);
-    if (given.is_pressure()) given_noise_Pa = std::max(given_noise_Pa, level);
+    if (given.channel.is_pressure()) given_noise_Pa = std::max(given_noise_Pa, level);
     std::normal_distribution<double> noise(0.0, level);
     for (double& reading : readings) reading += noise(random_);
     if (!run_.shaken) run_.shaken = driving;
@@ -324,7 +292,6 @@ class Judging {
   double row_s_, gap_s_ = 0.0;  ///< between rows; between stamps that are read
   std::mt19937_64 random_;
   bool fast_ = false;
-  std::optional<domain::Beside> judged_gauge_{};  // where only pressures were read
 };
 
 /// Between the rows of the whole data set.
@@ -351,7 +318,8 @@ std::size_t leave_out_the_end(const plant::Sensor* cell, std::vector<double>& fo
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;
   Rows rows{.row_s = row_s_of(data), .readings = 0.0};
-  std::vector<double> squares, pressure_squares, force_squares, valve_squares;
+  std::vector<double> squares;
+  std::map<std::string_view, std::vector<double>> squares_beside;
   double gain = 0.0;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
@@ -361,7 +329,7 @@ domain::Dataset with_rows(domain::Dataset data) {
           leave_out_the_end(data.rig.sensors.of(plant::Sensed::force), run.measured->take("force"));
     Judging judging(run, data.rig.has_angle(), rows.row_s, i + 1);
     judging();
-    rows.rows += run.judged().size();
+    rows.rows += run.rows();
     rows.inputs += run.measured->time_s.size();
     rows.readings += judging.readings_sum;
     rows.slack += judging.slack;
@@ -370,9 +338,7 @@ domain::Dataset with_rows(domain::Dataset data) {
       to.insert(to.end(), more.begin(), more.end());
     };
     add(squares, judging.squares);
-    add(pressure_squares, judging.pressure_squares);
-    add(force_squares, judging.force_squares);
-    add(valve_squares, judging.valve_squares);
+    for (const auto& [signal, more] : judging.squares_beside) add(squares_beside[signal], more);
     rows.given_noise_Pa = std::max(rows.given_noise_Pa, judging.given_noise_Pa);
     rows.step = std::max(rows.step, judging.step);
     rows.smoothed = rows.smoothed || (judging.fast() && run.shaken);
@@ -380,9 +346,8 @@ domain::Dataset with_rows(domain::Dataset data) {
   const double all = static_cast<double>(std::max<std::size_t>(rows.rows, 1));
   rows.readings /= all;
   rows.noise = noise_of(squares) * std::sqrt(gain / all);
-  rows.pressure_noise_Pa = noise_of(pressure_squares) * std::sqrt(gain / all);
-  rows.force_noise_N = noise_of(force_squares) * std::sqrt(gain / all);
-  rows.valve_noise_Pa = noise_of(valve_squares) * std::sqrt(gain / all);
+  for (const auto& [signal, of] : squares_beside)
+    rows.noise_beside[signal] = noise_of(of) * std::sqrt(gain / all);
   data.rows_of_stamps = rows;
   return data;
 }

@@ -49,12 +49,13 @@ std::optional<Weighed> weigh(const plant::Rig& rig, const plant::Braid& braid, s
     const double returned_N = rig.joint.spring().pull(braid.rest_length_m() * contraction_ratio);
     return (braid.force_N(contraction_ratio, expected.pressure_Pa[k]) - returned_N) / plant::gravity_m_per_s2;
   };
-  if (range(run.contraction_ratio) == 0.0) return std::nullopt;  // a dead reading weighs nothing
+  const Series& read = run.judged().values;
+  if (range(read) == 0.0) return std::nullopt;  // a dead reading weighs nothing
   Series plain_kg, compared_kg;
-  for (std::size_t k = 0; k < std::min(run.contraction_ratio.size(), expected.pressure_Pa.size()); ++k) {
-    const double measured = run.contraction_ratio[k], simulated = expected.judged[k];
+  for (std::size_t k = 0; k < std::min(read.size(), expected.pressure_Pa.size()); ++k) {
+    const double measured = read[k], simulated = expected.judged()[k];
     if (measured < of_loads.lifted || !braid.in_domain(measured)) continue;
-    if (stands_still(run.contraction_ratio, expected.judged, k)) continue;
+    if (stands_still(read, expected.judged(), k)) continue;
     plain_kg.push_back(carried_kg(measured, k));
     if (simulated > of_loads.lifted)
       compared_kg.push_back(run.load_kg + plain_kg.back() - carried_kg(simulated, k));

@@ -15,22 +15,20 @@ constexpr std::size_t parts = 4, least_rows = 25;  // of each
 }  // namespace
 
 domain::Run beginning_of(domain::Run run, std::size_t rows) {
-  if (rows >= run.judged().size()) return run;
-  for (auto* column : {&run.current_mA, &run.contraction_ratio, &run.force_N, &run.angle_rad, &run.time_s})
+  if (rows >= run.rows()) return run;
+  for (auto* column : {&run.current_mA, &run.time_s})
     if (!column->empty()) column->resize(rows);
-  for (const domain::Beside which : domain::besides) {
-    if (which != domain::Beside::force && run.gauge(which)) run.gauge(which)->resize(rows);
-    auto& missing = run.missing_beside[static_cast<std::size_t>(which)];
-    if (!missing.empty()) missing.resize(rows);
+  for (domain::Reading& reading : run.readings) {
+    reading.values.resize(rows);
+    if (!reading.missing.empty()) reading.missing.resize(rows);
   }
-  if (!run.missing.empty()) run.missing.resize(rows);
   for (auto* driving : {&run.measured, &run.shaken})
     if (*driving) (*driving)->rows.resize(rows);
   return run;
 }
 
 bool has_parts(const domain::Dataset& data) {
-  return data.runs.size() == 1 && data.runs.front().judged().size() >= parts * least_rows;
+  return data.runs.size() == 1 && data.runs.front().rows() >= parts * least_rows;
 }
 
 domain::Dataset in_parts(domain::Dataset data) {
@@ -38,19 +36,15 @@ domain::Dataset in_parts(domain::Dataset data) {
   const domain::Run whole = std::move(data.runs.front());
   data.runs.clear();
   data.parts_of_a_run = true;
-  const std::size_t rows = whole.judged().size();
+  const std::size_t rows = whole.rows();
   for (std::size_t part = 0; part < parts; ++part) {
     domain::Run run = beginning_of(whole, rows * (part + 1) / parts);
     run.id += "-" + std::to_string(part + 1);
     const auto first = static_cast<std::ptrdiff_t>(rows * part / parts);
-    run.missing.resize(run.judged().size(), false);
-    std::fill_n(run.missing.begin(), first, true);
-    for (const domain::Beside which : domain::besides)
-      if (run.beside(which) != nullptr) {
-        auto& missing = run.missing_beside[static_cast<std::size_t>(which)];
-        missing.resize(run.judged().size(), false);
-        std::fill_n(missing.begin(), first, true);
-      }
+    for (domain::Reading& reading : run.readings) {
+      reading.missing.resize(run.rows(), false);
+      std::fill_n(reading.missing.begin(), first, true);
+    }
     data.runs.push_back(std::move(run));
   }
   return data;

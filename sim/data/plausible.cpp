@@ -65,8 +65,8 @@ class Plausible {
         for (const domain::MeasuredColumn& column : run().measured->columns) look_at(column);
       else {
         command({&command_}, run().current_mA);
-        never_moves("contraction", run().contraction_ratio);
-        grid("contraction", run().contraction_ratio);
+        never_moves("contraction", run().judged().values);
+        grid("contraction", run().judged().values);
       }
     }
     absolute();
@@ -130,7 +130,7 @@ class Plausible {
 
   void look_at(const domain::MeasuredColumn& column) {
     const std::string key = column.channel.key_in_dataset();
-    if (column.is_pressure()) {
+    if (column.channel.is_pressure()) {
       if (column.given && column.channel.signal->key == "muscle_pressure") given_pressure(key, column.values);
       return;
     }
@@ -309,8 +309,7 @@ class Plausible {
   static bool same(const domain::Run& a, const domain::Run& b) {
     if (a.measured.has_value() != b.measured.has_value()) return false;
     if (!a.measured && a.current_mA.size() <= limits.least_rows) return false;
-    if (!a.measured)
-      return equal(a.current_mA, b.current_mA) && equal(a.contraction_ratio, b.contraction_ratio);
+    if (!a.measured) return equal(a.current_mA, b.current_mA) && equal(a.judged().values, b.judged().values);
     return a.measured->time_s.size() > limits.least_rows && equal(a.measured->time_s, b.measured->time_s) &&
            std::ranges::equal(a.measured->columns, b.measured->columns, [](const auto& x, const auto& y) {
              return x.given == y.given && equal(x.values, y.values);

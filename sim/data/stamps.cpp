@@ -140,7 +140,7 @@ std::vector<Told> columns_of(Measurement& measured, const plant::Rig& rig) {
     auto [shown, per_unit] = std::pair{std::string(unit.name), 1.0 / unit.size};
     if (unit.name == plant::units::ratio.name) shown = "mm", per_unit = 1e3 * rig.muscle.rest_length_m;
     if (unit.name == plant::units::rad.name) shown = "deg", per_unit = 1.0 / plant::degree_rad;
-    if (column.is_pressure()) shown = "mbar", per_unit = 1e3 / plant::Pa_per_bar;
+    if (column.channel.is_pressure()) shown = "mbar", per_unit = 1e3 / plant::Pa_per_bar;
     list.push_back({column.channel.key_in_dataset(), shown, per_unit, column.given, &column.values});
   }
   return list;

@@ -31,10 +31,9 @@ std::optional<double> speed_at_first(const domain::Dataset& data, const domain::
   const double row_s = data.row_s();
   const std::size_t rows =
       std::max(of_starts.least_rows, static_cast<std::size_t>(std::ceil(of_starts.look_s / row_s)));
-  const std::vector<double>& read = run.judged();
+  const std::vector<double>& read = run.judged().values;
   if (read.size() != model.size() || read.size() < rows) return std::nullopt;
-  if (!run.missing.empty() && std::ranges::count(run.missing | std::views::take(rows), true) > 0)
-    return std::nullopt;
+  if (std::ranges::count(run.judged().missing | std::views::take(rows), true) > 0) return std::nullopt;
   const std::span first(read.data(), rows);
   const double all = slope(first), at_once = slope(first.first(rows / 2)), rig = slope({model.data(), rows});
   const double grain = reading_grain(data.judged(), data.rig);
@@ -55,7 +54,7 @@ std::optional<Finding> begins_moving(const domain::Dataset& data, const std::vec
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     const domain::Run& run = data.runs[i];
     if (run.length_is_given() || (run.measured && run.measured->point_s > 0.0)) continue;
-    const auto speed = speed_at_first(data, run, expected[i].judged);
+    const auto speed = speed_at_first(data, run, expected[i].judged());
     if (!speed) continue;
     if (std::abs(*speed) > std::abs(fastest)) {
       fastest = *speed;

@@ -178,14 +178,16 @@ std::vector<Candidate> catalogue(const Rig& rig) {
 std::vector<Candidate> catalogue(const domain::Dataset& data) {
   const bool given = data.pressure_is_given();
   const Hidden from = hidden(data);
-  const auto read = [&](const auto& gauge) {
-    return std::ranges::any_of(data.runs, [&](const domain::Run& run) { return (run.*gauge).has_value(); });
+  const auto gauged = [&](std::size_t muscle) {
+    return given || std::ranges::any_of(data.runs, [&](const domain::Run& run) {
+             return run.find("muscle_pressure", muscle) != nullptr;
+           });
   };
   const bool pair = data.rig.pair() != nullptr;
   std::vector<Candidate> list = in_sight({.hidden = from,
                                           .load_guide = !data.rig.has_angle(),
-                                          .gauge = given || read(&domain::Run::muscle_pressure_Pa),
-                                          .opposite_gauge = given || read(&domain::Run::opposite_pressure_Pa),
+                                          .gauge = gauged(1),
+                                          .opposite_gauge = gauged(2),
                                           .pair = pair});
   if (data.rig.valve.seals())
     for (Candidate& one : list)

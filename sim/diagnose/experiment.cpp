@@ -21,75 +21,45 @@ Experiment::Experiment(const domain::Dataset& data, std::vector<std::vector<bool
       threads_(threads),
       floor_(noise_floor(data, masked_, std::move(trusted))) {}
 
-namespace {
-
-/// Calls `visit(kind, values)` for each reading of a run beside the one that is judged.
-template <class Visit>
-void each_beside(const domain::Run& run, const Visit& visit) {
-  for (const domain::Beside which : domain::besides)
-    if (const auto* values = run.beside(which)) visit(which, *values);
-}
-
-}  // namespace
-
 std::size_t Experiment::rows(std::size_t run) const {
-  const domain::Run& measured = data_.runs[run];
-  std::size_t readings = 1;
-  each_beside(measured, [&](auto, const auto&) { ++readings; });
-  return measured.judged().size() * readings;
+  return data_.runs[run].rows() * data_.runs[run].readings.size();
 }
 
 std::vector<Experiment::Part> Experiment::parts(const Runs& runs) const {
   std::vector<Part> list;
   Eigen::Index begin = 0;
   for (const std::size_t run : runs) {
-    list.push_back({run, begin, static_cast<Eigen::Index>(data_.runs[run].judged().size())});
+    list.push_back({run, begin, static_cast<Eigen::Index>(data_.runs[run].rows())});
     begin += static_cast<Eigen::Index>(rows(run));
   }
   return list;
 }
 
+double Experiment::floor_of(const domain::Run& run, std::size_t reading) const {
+  return reading == 0 ? floor_.judged : floor_.beside(run.readings[reading].channel);
+}
+
 void Experiment::compare(const Readings& readings, std::size_t run, double* residuals) const {
   const domain::Run& measured = data_.runs[run];
-  const std::size_t ticks = measured.judged().size();
   const auto& masked = masked_[run];
-  for (std::size_t k = 0; k < ticks; ++k) {
+  for (std::size_t i = 0; i < measured.readings.size(); ++i) {
+    const domain::Reading& read = measured.readings[i];
+    const double floor = floor_of(measured, i);
     // A counter rounds down: the middle of its count is the best guess. Other sensors do not.
-    const double read = measured.judged()[k] + floor_.middle;
-    residuals[k] = masked[k] ? 0.0 : (read - readings.judged[k]) / floor_.judged;
+    const double middle = i == 0 ? floor_.middle : 0.0;
+    for (std::size_t k = 0; k < read.values.size(); ++k)
+      *residuals++ =
+          masked[k] || read.is_missing(k) ? 0.0 : (read.values[k] + middle - readings.readings[i][k]) / floor;
   }
-  each_beside(measured, [&](domain::Beside which, const std::vector<double>& read) {
-    residuals += ticks;
-    const auto& predicted = readings.beside(which);
-    for (std::size_t k = 0; k < ticks; ++k)
-      residuals[k] =
-          masked[k] || measured.is_missing(which, k) ? 0.0 : (read[k] - predicted[k]) / floor_.beside(which);
-  });
 }
 
 namespace {
 
-/// One reading after the other, in floors, as residuals are.
-Eigen::VectorXd in_floors(const Readings& readings, const NoiseFloor& floor, const domain::Run& run) {
-  const auto rows = static_cast<Eigen::Index>(readings.judged.size());
-  Eigen::VectorXd list = Eigen::Map<const Eigen::VectorXd>(readings.judged.data(), rows) / floor.judged;
-  each_beside(run, [&](domain::Beside which, const auto&) {
-    list.conservativeResize(list.size() + rows);
-    list.tail(rows) =
-        Eigen::Map<const Eigen::VectorXd>(readings.beside(which).data(), rows) / floor.beside(which);
-  });
-  return list;
-}
-
 /// As many times of the way from one to another.
-void go(std::vector<double>& values, const std::vector<double>& from, const std::vector<double>& to,
-        double times) {
-  for (std::size_t k = 0; k < values.size(); ++k) values[k] += times * (to[k] - from[k]);
-}
 void go(Readings& readings, const Readings& from, const Readings& to, double times) {
-  go(readings.judged, from.judged, to.judged, times);
-  for (const domain::Beside which : domain::besides)
-    go(readings.beside(which), from.beside(which), to.beside(which), times);
+  for (std::size_t i = 0; i < readings.readings.size(); ++i)
+    for (std::size_t k = 0; k < readings.readings[i].size(); ++k)
+      readings.readings[i][k] += times * (to.readings[i][k] - from.readings[i][k]);
 }
 
 }  // namespace
@@ -113,17 +83,7 @@ std::vector<Readings> Experiment::begun(std::size_t run, std::vector<Loaded> rig
     auto readings = predict(measured, rigs, method, memories);
     const Readings here = readings.front(), aside = std::move(readings.back());
     readings.pop_back();
-    Eigen::VectorXd along =
-        (in_floors(aside, floor_, measured) - in_floors(here, floor_, measured)) / by.memory_step;
-    const auto& masked = masked_[run];
-    for (Eigen::Index k = 0; k < along.size(); ++k)
-      if (masked[static_cast<std::size_t>(k) % masked.size()]) along[k] = 0.0;
-    double* part = along.data();
-    each_beside(measured, [&](domain::Beside which, const auto&) {
-      part += masked.size();
-      for (std::size_t k = 0; k < masked.size(); ++k)
-        if (measured.is_missing(which, k)) part[k] = 0.0;
-    });
+    const Eigen::VectorXd along = (residuals(here, run) - residuals(aside, run)) / by.memory_step;
     const double square = along.squaredNorm() + 1.0 / (by.memory * by.memory);
     const auto further = [&](const Readings& from) {
       return std::clamp(off + along.dot(residuals(from, run)) / square, -by.memory, by.memory) - off;
@@ -174,24 +134,6 @@ double Experiment::rmse(const Eigen::VectorXd& residuals, const Runs& runs) cons
     count += static_cast<std::size_t>(std::count(masked_[part.run].begin(), masked_[part.run].end(), false));
   }
   return floor_.judged * std::sqrt(squares / static_cast<double>(std::max<std::size_t>(count, 1)));
-}
-
-std::optional<double> Experiment::rmse(domain::Beside which, const Eigen::VectorXd& residuals,
-                                       const Runs& runs) const {
-  double squares = 0.0, count = 0.0;
-  for (const Part& part : parts(runs)) {
-    Eigen::Index begin = part.begin;
-    const domain::Run& run = data_.runs[part.run];
-    each_beside(run, [&](domain::Beside other, const auto& read) {
-      begin += part.rows;
-      if (other != which) return;
-      squares += residuals.segment(begin, part.rows).squaredNorm();
-      for (std::size_t k = 0; k < read.size(); ++k)
-        count += masked_[part.run][k] || run.is_missing(which, k) ? 0.0 : 1.0;
-    });
-  }
-  if (count == 0.0) return std::nullopt;
-  return floor_.beside(which) * std::sqrt(squares / count);
 }
 
 }  // namespace mckibben::diagnose

@@ -39,8 +39,6 @@ class Experiment {
 
   /// Root mean square of measured minus predicted, of the reading that is judged.
   double rmse(const Eigen::VectorXd& residuals, const Runs& runs) const;
-  /// The same of a reading beside it; none if no run has it.
-  std::optional<double> rmse(domain::Beside which, const Eigen::VectorXd& residuals, const Runs& runs) const;
   /// The part of a residual vector that is one run's judged reading: offset and length.
   struct Part {
     std::size_t run;
@@ -53,6 +51,7 @@ class Experiment {
  private:
   /// Readings of a run by several rigs, the memories of each of a run that began on its way fitted to it.
   std::vector<Readings> begun(std::size_t run, std::vector<Loaded> rigs) const;
+  double floor_of(const domain::Run& run, std::size_t reading) const;
   void compare(const Readings& readings, std::size_t run, double* residuals) const;
   /// Whether what the rig's effects remember when a run begins is to be found out.
   bool seeks_memories(const Rig& rig) const;

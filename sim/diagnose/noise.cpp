@@ -1,11 +1,9 @@
 // Estimates of noise; see the header.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <numeric>
-#include <span>
 #include <variant>
 
 #include <plant/instruments.hpp>
@@ -27,7 +25,7 @@ constexpr const NoiseThresholds& assumed = thresholds.noise;
 double last_decimal(const domain::Dataset& data, const Runs& runs) {
   double unit = assumed.first_decimal;
   for (const std::size_t run : runs) {
-    for (const double ratio : data.runs[run].judged()) {
+    for (const double ratio : data.runs[run].judged().values) {
       while (std::abs(ratio / unit - std::round(ratio / unit)) > assumed.decimal_error) {
         unit /= 10.0;
         if (unit < assumed.last_decimal) return 0.0;
@@ -44,9 +42,9 @@ bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& 
   if (tolerance > assumed.telling_count) return false;  // everything would be whole
   std::size_t whole = 0, all = 0;
   for (const std::size_t i : runs) {
-    for (std::size_t k = 0; k < data.runs[i].judged().size(); ++k) {
+    for (std::size_t k = 0; k < data.runs[i].rows(); ++k) {
       if (masked[i][k]) continue;
-      const double counts = data.runs[i].judged()[k] / count;
+      const double counts = data.runs[i].judged().values[k] / count;
       ++all;
       whole += std::abs(counts - std::round(counts)) <= tolerance ? 1 : 0;
     }
@@ -56,16 +54,15 @@ bool counted(const domain::Dataset& data, const std::vector<std::vector<bool>>& 
 
 /// Noise of what was read beside from the second differences: what changes so fast is not the gas. 0 if
 /// nothing was.
-double noise_beside(const domain::Dataset& data, const Runs& runs, std::span<const domain::Beside> which_of) {
+double noise_beside(const domain::Dataset& data, const Runs& runs, const plant::Signal& signal) {
   double squares = 0.0;
   std::size_t count = 0;
   for (const std::size_t index : runs) {
-    for (const domain::Beside which : which_of) {
-      const auto* read = data.runs[index].beside(which);
-      if (read == nullptr) continue;
-      const auto& p = *read;
+    for (const domain::Reading& read : data.runs[index].beside()) {
+      if (read.channel.signal != &signal) continue;
+      const std::vector<double>& v = read.values;
       std::vector<double> second;
-      for (std::size_t k = 2; k < p.size(); ++k) second.push_back(std::abs(p[k] - 2.0 * p[k - 1] + p[k - 2]));
+      for (std::size_t k = 2; k < v.size(); ++k) second.push_back(std::abs(v[k] - 2.0 * v[k - 1] + v[k - 2]));
       if (second.empty()) continue;
       // The median is blind to the few ticks at which the gas itself turns.
       const double deviation = data::upper_median(std::move(second)) / assumed.normal_median / std::sqrt(6.0);
@@ -81,7 +78,7 @@ double noise_beside(const domain::Dataset& data, const Runs& runs, std::span<con
 double scatter(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked, const Runs& runs) {
   std::vector<double> fourth;
   for (const std::size_t i : runs) {
-    const auto& e = data.runs[i].judged();
+    const auto& e = data.runs[i].judged().values;
     for (std::size_t k = 4; k < e.size(); ++k)
       if (std::none_of(masked[i].begin() + static_cast<std::ptrdiff_t>(k - 4),
                        masked[i].begin() + static_cast<std::ptrdiff_t>(k + 1), std::identity{}))
@@ -96,7 +93,7 @@ bool driven_alike(const domain::Run& one, const domain::Run& other, bool sealed)
   if (sealed && one.measured && other.measured && one.measured->filled_Pa != other.measured->filled_Pa)
     return false;
   if (one.load_kg != other.load_kg || one.current_mA != other.current_mA || one.shaken) return false;
-  if (one.judged().size() != other.judged().size()) return false;
+  if (one.rows() != other.rows()) return false;
   if (!one.measured || !other.measured) return one.measured.has_value() == other.measured.has_value();
   const auto given = [](const domain::Run& run) {
     auto columns = run.measured->columns;
@@ -104,7 +101,7 @@ bool driven_alike(const domain::Run& one, const domain::Run& other, bool sealed)
     return columns;
   };
   return std::ranges::equal(given(one), given(other), [](const auto& a, const auto& b) {
-    return a.is(b.channel.signal->in_dataset, b.channel.muscle) && a.values == b.values;
+    return a.channel == b.channel && a.values == b.values;
   });
 }
 
@@ -116,9 +113,9 @@ double repeatability(const domain::Dataset& data, const std::vector<std::vector<
     for (auto b = std::next(a); b != trusted.end(); ++b) {
       const domain::Run &one = data.runs[*a], &other = data.runs[*b];
       if (!driven_alike(one, other, data.rig.valve.seals())) continue;
-      for (std::size_t k = 0; k < one.judged().size(); ++k) {
+      for (std::size_t k = 0; k < one.rows(); ++k) {
         if (masked[*a][k] || masked[*b][k]) continue;
-        const double difference = one.judged()[k] - other.judged()[k];
+        const double difference = one.judged().values[k] - other.judged().values[k];
         squares += 0.5 * difference * difference;
         count += 1.0;
       }
@@ -153,7 +150,7 @@ double dither(const domain::Dataset& data, const std::vector<std::vector<bool>>&
   std::array<double, bins> rows{};
   double sum = 0.0;
   for (const std::size_t i : runs) {
-    const auto& e = data.runs[i].judged();
+    const auto& e = data.runs[i].judged().values;
     for (std::size_t k = reach; k + reach < e.size(); ++k) {
       const auto first = masked[i].begin() + static_cast<std::ptrdiff_t>(k - reach);
       if (std::any_of(first, first + 2 * reach + 1, std::identity{}) || !straight(e, k, reach, count))
@@ -190,7 +187,7 @@ double of_given_pressure(const domain::Dataset& data, const Runs& runs) {
     if (!run.shaken) continue;
     const Loaded hanging{data.rig, run.load_kg};
     const auto readings = [&] {
-      return predict(run, {&hanging, 1}, data.rig.integrator.method).front().judged;
+      return predict(run, {&hanging, 1}, data.rig.integrator.method).front().judged();
     };
     const auto calm = readings();
     run.measured = run.shaken;
@@ -222,102 +219,77 @@ double of_command(const domain::Dataset& data, const Runs& runs) {
     if (rigs.size() == 1) continue;
     const auto readings = predict(run, rigs, data.rig.integrator.method);
     for (std::size_t rig = 1; rig < readings.size(); ++rig)
-      for (std::size_t k = 0; k < readings[rig].judged.size(); ++k)
-        squares += std::pow(readings[rig].judged[k] - readings[0].judged[k], 2);
-    count += static_cast<double>(readings[0].judged.size());
+      for (std::size_t k = 0; k < readings[rig].judged().size(); ++k)
+        squares += std::pow(readings[rig].judged()[k] - readings[0].judged()[k], 2);
+    count += static_cast<double>(readings[0].judged().size());
   }
   return count > 0.0 ? std::sqrt(squares / count) : 0.0;
 }
 
-/// What a data sheet says of the reading that is judged, in its unit; 0 where there is none.
+/// What a data sheet says of a reading, in its unit; 0 where there is none.
 struct Sheet {
   double step = 0.0, noise = 0.0, accuracy = 0.0;
 };
-Sheet sheet_of(const domain::Dataset& data) {
-  if (data.judged() == domain::Judged::pressure) {
-    const bool valve = std::ranges::find(domain::valve_gauges, data.runs.front().judged_gauge()) !=
-                       domain::valve_gauges.end();
-    const plant::Sensor* gauge =
-        data.rig.sensors.of(valve ? plant::Sensed::valve_pressure : plant::Sensed::muscle_pressure);
-    return gauge != nullptr ? Sheet{gauge->resolution, gauge->noise, gauge->accuracy} : Sheet{};
+Sheet sheet_of(const plant::Rig& rig, const plant::Signal& signal) {
+  const std::string_view key = signal.in_dataset;
+  if (key == "contraction" || key == "angle") {
+    const plant::Sensor& sensor = rig.sensors.position();
+    const double radius_m = rig.joint.wheel_radius_m;
+    const double reading = sensor.rise_m(radius_m) / (key == "angle" ? radius_m : rig.muscle.rest_length_m);
+    return {sensor.resolution * reading, sensor.noise * reading, sensor.accuracy * reading};
   }
-  if (data.judged() == domain::Judged::force) {
-    const plant::Sensor* cell = data.rig.sensors.of(plant::Sensed::force);
-    return cell != nullptr ? Sheet{cell->resolution, cell->noise, cell->accuracy} : Sheet{};
-  }
-  const plant::Sensor& sensor = data.rig.sensors.position();
-  const double radius_m = data.rig.joint.wheel_radius_m;
-  const double reading = sensor.rise_m(radius_m) /
-                         (data.judged() == domain::Judged::angle ? radius_m : data.rig.muscle.rest_length_m);
-  return {sensor.resolution * reading, sensor.noise * reading, sensor.accuracy * reading};
+  for (const plant::Sensor& sensor : rig.sensors)
+    if (name_of(sensor.signal) == key) return {sensor.resolution, sensor.noise, sensor.accuracy};
+  return {};
 }
 
-double largest_force_N(const domain::Dataset& data) {
-  double most_N = 0.0;
+/// The largest that was read of it, either way.
+double largest(const domain::Dataset& data, const plant::Signal& signal) {
+  double most = 0.0;
   for (const domain::Run& run : data.runs)
-    for (const double force_N : run.force_N) most_N = std::max(most_N, std::abs(force_N));
-  return most_N;
+    for (const domain::Reading& read : run.readings)
+      if (read.channel.signal == &signal)
+        for (const double value : read.values) most = std::max(most, std::abs(value));
+  return most;
 }
 
-/// What the reading that is judged cannot be known better than: what the simulation does wrong, and the least
-/// that is believed of any instrument.
+/// What a reading cannot be known better than: what the simulation does wrong, and the least that is believed
+/// of any instrument.
 struct Least {
   double simulated, believed;
 };
-Least least_of(const domain::Dataset& data) {
+Least least_of(const domain::Dataset& data, const plant::Signal& signal) {
   const double tolerance = thresholds.predict.tolerance;
-  switch (data.judged()) {
-    case domain::Judged::force:
-      return {tolerance * largest_force_N(data), assumed.least_force_N};
-    case domain::Judged::angle: {
-      const double turn_rad = data.rig.muscle.rest_length_m / plant::plant_of(data.rig).arm_at_rest_m();
-      return {tolerance * turn_rad, assumed.least_ratio * turn_rad};
-    }
-    case domain::Judged::pressure:
-      return {tolerance * data.rig.valve.span_pressure_Pa, assumed.least_pressure_Pa};
-    case domain::Judged::contraction:
-      break;
+  const std::string_view key = signal.in_dataset;
+  if (key == "contraction") return {tolerance, assumed.least_ratio};
+  if (key == "angle") {
+    const double turn_rad = data.rig.muscle.rest_length_m / plant::plant_of(data.rig).arm_at_rest_m();
+    return {tolerance * turn_rad, assumed.least_ratio * turn_rad};
   }
-  return {tolerance, assumed.least_ratio};
-}
-
-bool is_read(const domain::Dataset& data, const Runs& runs, domain::Beside which) {
-  return std::ranges::any_of(runs, [&](std::size_t run) { return data.runs[run].beside(which) != nullptr; });
+  if (key == "force") return {tolerance * largest(data, signal), assumed.least_force_N};
+  return {tolerance * data.rig.valve.span_pressure_Pa, assumed.least_pressure_Pa};
 }
 
 /// Of rows that were made of stamps: what their readings scattered by is known.
-void floor_of_rows(const domain::Dataset& data, const Runs& trusted, NoiseFloor& floor) {
+void floor_of_rows(const domain::Dataset& data, const Runs& trusted, const plant::Signal& judged,
+                   NoiseFloor& floor) {
   const domain::Rows& rows = *data.rows_of_stamps;
-  const Sheet sheet = sheet_of(data);
+  const Sheet sheet = sheet_of(data.rig, judged);
   floor.jitter = rows.noise > 0.0 ? rows.noise : sheet.noise;
   floor.given = of_given_pressure(data, trusted);
   const double step = std::max(rows.step, sheet.step);
   const double instruments = std::hypot(step / std::sqrt(12.0), floor.jitter, floor.given);
-  const auto [simulated, believed] = least_of(data);
+  const auto [simulated, believed] = least_of(data, judged);
   floor.judged = std::max({floor.repeats, floor.with_sheets(std::hypot(instruments, simulated)), believed});
-  if (std::ranges::any_of(domain::gauges, [&](auto which) { return is_read(data, trusted, which); }))
-    floor.pressure_Pa = std::max(rows.pressure_noise_Pa, assumed.least_pressure_Pa);
 }
 
-/// Of a load cell beside what is judged, by what its readings scatter.
-double force_floor_N(const domain::Dataset& data, const Runs& trusted) {
-  if (!is_read(data, trusted, domain::Beside::force)) return 0.0;
-  constexpr std::array of_cell{domain::Beside::force};
-  const double noise_N =
-      data.rows_of_stamps ? data.rows_of_stamps->force_noise_N : noise_beside(data, trusted, of_cell);
-  const plant::Sensor* cell = data.rig.sensors.of(plant::Sensed::force);
-  return std::max({std::hypot(noise_N, cell != nullptr ? cell->accuracy : 0.0),
-                   thresholds.predict.tolerance * largest_force_N(data), assumed.least_force_N});
-}
-
-/// Of gauges on valves, in the same way.
-double valve_floor_Pa(const domain::Dataset& data, const Runs& trusted) {
-  if (std::ranges::none_of(domain::valve_gauges, [&](auto which) { return is_read(data, trusted, which); }))
-    return 0.0;
-  const double noise_Pa = data.rows_of_stamps ? data.rows_of_stamps->valve_noise_Pa
-                                              : noise_beside(data, trusted, domain::valve_gauges);
-  const plant::Sensor* gauge = data.rig.sensors.of(plant::Sensed::valve_pressure);
-  return std::max(std::hypot(noise_Pa, gauge != nullptr ? gauge->accuracy : 0.0), assumed.least_pressure_Pa);
+/// Of what was read beside the reading that is judged, by what it scatters; of both muscles of a pair.
+double floor_beside(const domain::Dataset& data, const Runs& trusted, const plant::Signal& signal) {
+  const auto& rows = data.rows_of_stamps;
+  const double noise = rows && rows->noise_beside.contains(signal.key) ? rows->noise_beside.at(signal.key)
+                                                                       : noise_beside(data, trusted, signal);
+  const auto [simulated, believed] = least_of(data, signal);
+  return std::max({std::hypot(noise, sheet_of(data.rig, signal).accuracy), simulated, believed});
 }
 
 }  // namespace
@@ -331,15 +303,18 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
     trusted.resize(data.runs.size());
     std::iota(trusted.begin(), trusted.end(), std::size_t{0});
   }
-  floor.force_N = force_floor_N(data, trusted);
-  floor.valve_Pa = valve_floor_Pa(data, trusted);
+  for (const std::size_t run : trusted)
+    for (const domain::Reading& read : data.runs[run].beside())
+      if (const plant::Signal& signal = *read.channel.signal; !floor.of_signal.contains(signal.key))
+        floor.of_signal[signal.key] = floor_beside(data, trusted, signal);
+  const plant::Signal& judged = *data.runs[trusted.front()].judged().channel.signal;
   floor.command = of_command(data, trusted);
-  floor.accuracy = sheet_of(data).accuracy;
+  floor.accuracy = sheet_of(data.rig, judged).accuracy;
   const bool encoder = std::any_of(data.runs.begin(), data.runs.end(), [](const domain::Run& run) {
     return run.measured && run.measured->counted && !run.length_is_given();
   });
   if (data.rows_of_stamps && !encoder) {
-    floor_of_rows(data, trusted, floor);
+    floor_of_rows(data, trusted, judged, floor);
     return floor;
   }
   const double decimal = last_decimal(data, trusted);
@@ -347,14 +322,12 @@ NoiseFloor noise_floor(const domain::Dataset& data, const std::vector<std::vecto
   const double rounding = std::hypot(floor.count, decimal) / std::sqrt(12.0);
   const double noise = scatter(data, masked, trusted);
   floor.jitter = std::sqrt(std::max(0.0, noise * noise - rounding * rounding));
-  floor.noisy = floor.jitter > std::max(count, assumed.sheet_noise * sheet_of(data).noise);
+  floor.noisy = floor.jitter > std::max(count, assumed.sheet_noise * sheet_of(data.rig, judged).noise);
   if (floor.count > 0.0 && !floor.noisy) floor.jitter = count * dither(data, masked, trusted, count);
-  const auto [simulated, believed] = least_of(data);
+  const auto [simulated, believed] = least_of(data, judged);
   floor.middle = floor.count * plant::middle_of_count(data.rig.sensors.position());
   floor.judged =
       std::max({floor.repeats, floor.with_sheets(std::hypot(rounding, floor.jitter, simulated)), believed});
-  if (std::ranges::any_of(domain::gauges, [&](auto which) { return is_read(data, trusted, which); }))
-    floor.pressure_Pa = std::max(noise_beside(data, trusted, domain::gauges), assumed.least_pressure_Pa);
   return floor;
 }
 

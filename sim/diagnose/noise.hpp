@@ -2,6 +2,8 @@
 // is counted, what equal runs differ by, the noise of gauges.
 #pragma once
 
+#include <map>
+#include <string_view>
 #include <vector>
 
 #include <sim/domain/dataset.hpp>
@@ -10,23 +12,22 @@ namespace mckibben::diagnose {
 
 /// Root mean squares.
 struct NoiseFloor {
-  double count = 0.0;        ///< contraction ratio of one count; 0: the readings are not counted
-  double jitter = 0.0;       ///< of the reading that is judged, before it is counted
-  double judged = 0.0;       ///< of the reading that is judged: the largest of instruments and repeats
-  double repeats = 0.0;      ///< of the same, between equal runs; 0: none are equal
-  double pressure_Pa = 0.0;  ///< of the gauges; 0: none fitted
-  double force_N = 0.0;      ///< of a force that was read beside; 0: none was
-  double valve_Pa = 0.0;     ///< of a valve's pressure that was read beside; 0: none was
-  double given = 0.0;        ///< of the reading that is judged, by the noise of a pressure that is given
-  double command = 0.0;      ///< of the same, by what a regulator does not repeat
-  double accuracy = 0.0;     ///< of the same, by the sensor's data sheet
-  double middle = 0.0;       ///< what a counter's readings are too low by, on average
-  bool noisy = false;        ///< the jitter is more than a count of the rig's encoder
+  double count = 0.0;     ///< contraction ratio of one count; 0: the readings are not counted
+  double jitter = 0.0;    ///< of the reading that is judged, before it is counted
+  double judged = 0.0;    ///< of the reading that is judged: the largest of instruments and repeats
+  double repeats = 0.0;   ///< of the same, between equal runs; 0: none are equal
+  double given = 0.0;     ///< of the reading that is judged, by the noise of a pressure that is given
+  double command = 0.0;   ///< of the same, by what a regulator does not repeat
+  double accuracy = 0.0;  ///< of the same, by the sensor's data sheet
+  double middle = 0.0;    ///< what a counter's readings are too low by, on average
+  bool noisy = false;     ///< the jitter is more than a count of the rig's encoder
 
-  double beside(domain::Beside which) const {
-    using enum domain::Beside;
-    if (which == force) return force_N;
-    return which == muscle_pressure || which == opposite_pressure ? pressure_Pa : valve_Pa;
+  std::map<std::string_view, double> of_signal{};  ///< that was read beside it, by its key
+
+  /// Of a reading beside the one that is judged; 0 if none of its signal was.
+  double beside(const plant::Channel& channel) const {
+    const auto at = of_signal.find(channel.signal->key);
+    return at != of_signal.end() ? at->second : 0.0;
   }
   /// What scatters, together with what data sheets say is off.
   double with_sheets(double scatter) const { return std::hypot(scatter, command, accuracy); }

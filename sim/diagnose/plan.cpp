@@ -173,10 +173,12 @@ std::vector<double> loads_kg(const domain::Dataset& data, const Rig& rig) {
   return kept;
 }
 
-/// The currents as the DAC gives them, at each tick; of a pair with as many readings as the data have.
+/// The currents as the DAC gives them, at each tick, and what would be judged; of a pair with as many
+/// readings as the data have.
 domain::Run played(const Item& item, const domain::Dataset& data, const Rig& rig, double load_kg) {
   domain::Run run;
   run.load_kg = load_kg;
+  run.readings.push_back({data.runs.front().judged().channel});
   const auto each = static_cast<std::size_t>(std::max(1L, std::lround(data.row_s() / rig.tick_s)));
   for (std::size_t k = 0; static_cast<double>(k) * rig.tick_s < lasting_s; ++k) {
     const double time_s = static_cast<double>(k) * rig.tick_s;
@@ -291,7 +293,7 @@ std::optional<NextExperiment> plan(const domain::Dataset& data, unsigned threads
     if (is_made(data, run, one)) return 0.0;  // it was of no help
     const Loaded both[] = {{one, run.load_kg}, {other, run.load_kg}};
     const auto readings = predict(run, both, data.rig.integrator.method);
-    return unexplained(readings[0].judged, readings[1].judged);
+    return unexplained(readings[0].judged(), readings[1].judged());
   });
   const auto promising = largest(apart, thresholds.plan.refitted);
   const auto powers = for_each(promising.size(), [&](std::size_t i) {

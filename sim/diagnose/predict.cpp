@@ -1,6 +1,7 @@
 // What drove a run drives riders; see the header.
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include <sim/diagnose/predict.hpp>
@@ -20,18 +21,14 @@ class Prediction final : public run::Follower {
   Prediction(const domain::Run& run, std::span<const Loaded> rigs, Done done, run::Disturbance disturbance)
       : Follower({rigs.begin(), rigs.end()}, rigs.front().rig, run::course_of(run, rigs.front().rig),
                  std::move(disturbance)),
-        pair_(rigs.front().rig.pair() != nullptr),
-        angle_(rigs.front().rig.has_angle()),
-        forces_(run.length_is_given()),
-        gauge_(run.judged_gauge()),
-        force_beside_(run.beside(domain::Beside::force) != nullptr),
-        valve_beside_(run.valve_pressure_Pa.has_value()),
-        opposite_valve_beside_(run.opposite_valve_pressure_Pa.has_value()),
+        length_is_given_(run.length_is_given()),
         rest_length_m_(run.rest_length_m),
         done_(std::move(done)),
         readings_(rigs.size()) {
+    for (const domain::Reading& reading : run.readings) channels_.push_back(reading.channel);
     for (Readings& one : readings_) {
-      one.judged.reserve(course().rows.size());
+      one.readings.resize(channels_.size());
+      for (std::vector<double>& values : one.readings) values.reserve(course().rows.size());
       one.pressure_Pa.reserve(course().rows.size());
     }
   }
@@ -45,32 +42,31 @@ class Prediction final : public run::Follower {
     const std::span<const ride::Rider> all = riders();
     for (std::size_t i = 0; i < all.size(); ++i) {
       const ride::Rider& rider = all[i];
-      const ride::Reading& seen = rider.now.reading;
-      if (!gauge_)
-        readings_[i].judged.push_back(forces_ ? rider.moment().cord_force_N()
-                                              : seen.wheel_m / travel_m(rider.plant().rig()));
-      readings_[i].pressure_Pa.push_back(seen.muscle_pressure_Pa);
-      if (force_beside_) readings_[i].force_N.push_back(std::max(rider.moment().cord_force_N(), 0.0));
-      if (pair_) readings_[i].opposite_pressure_Pa.push_back(seen.opposite_pressure_Pa);
-      if (valve_beside_) readings_[i].valve_pressure_Pa.push_back(seen.valve_pressure_Pa);
-      if (opposite_valve_beside_)
-        readings_[i].opposite_valve_pressure_Pa.push_back(seen.opposite_valve_pressure_Pa);
-      if (gauge_) readings_[i].judged.push_back(readings_[i].beside(*gauge_).back());
+      for (std::size_t k = 0; k < channels_.size(); ++k)
+        readings_[i].readings[k].push_back(seen(rider, channels_[k]));
+      readings_[i].pressure_Pa.push_back(rider.now.reading.muscle_pressure_Pa);
     }
     readings_[0].states.push_back(all[0].now.flow.state);
   }
 
-  /// Of the wheel's rim, for a reading of 1.
-  double travel_m(const plant::Rig& rig) const {
-    if (angle_) return rig.joint.wheel_radius_m;
-    return rest_length_m_ > 0.0 ? rest_length_m_ : rig.muscle.rest_length_m;
+  double seen(const ride::Rider& rider, const plant::Channel& channel) const {
+    const ride::Reading& now = rider.now.reading;
+    const std::string_view key = channel.signal->in_dataset;
+    const bool opposite = channel.muscle == 2;
+    if (key == "muscle_pressure") return opposite ? now.opposite_pressure_Pa : now.muscle_pressure_Pa;
+    if (key == "valve_pressure") return opposite ? now.opposite_valve_pressure_Pa : now.valve_pressure_Pa;
+    if (key == "force") {
+      const double force_N = rider.moment().cord_force_N();
+      return length_is_given_ ? force_N : std::max(force_N, 0.0);
+    }
+    const plant::Rig& rig = rider.plant().rig();
+    if (key == "angle") return now.wheel_m / rig.joint.wheel_radius_m;
+    return now.wheel_m / (rest_length_m_ > 0.0 ? rest_length_m_ : rig.muscle.rest_length_m);
   }
 
-  bool pair_, angle_;                                         // two muscles; angles are read
-  bool forces_;                                               // are read, at lengths that are given
-  std::optional<domain::Beside> gauge_;                       // that is judged, where only pressures are read
-  bool force_beside_, valve_beside_, opposite_valve_beside_;  // of the cord, of valves are read besides
-  double rest_length_m_;                                      // that readings go by; 0: each rig's own
+  std::vector<plant::Channel> channels_;  // that were read
+  bool length_is_given_;
+  double rest_length_m_;  // that readings go by; 0: each rig's own
   Done done_;
   std::vector<Readings> readings_;
 };

@@ -27,7 +27,7 @@ Start look_at_start(const Experiment& experiment, const Rig& corrected, const Ru
   Start start;
   const double tick_s = experiment.data().row_s();
   std::size_t longest = 0;
-  for (const std::size_t run : runs) longest = std::max(longest, experiment.data().runs[run].judged().size());
+  for (const std::size_t run : runs) longest = std::max(longest, experiment.data().runs[run].rows());
   start.lasting_s =
       std::min(of_start.longest_s, of_start.share_of_run * static_cast<double>(longest) * tick_s);
   const auto first = static_cast<Eigen::Index>(std::lround(start.lasting_s / tick_s));
@@ -39,7 +39,7 @@ Start look_at_start(const Experiment& experiment, const Rig& corrected, const Ru
     const std::size_t run = runs[i];
     const Readings& readings = simulated[i];
     const Eigen::VectorXd residuals =
-        experiment.residuals(readings, run).head(static_cast<Eigen::Index>(readings.judged.size()));
+        experiment.residuals(readings, run).head(static_cast<Eigen::Index>(readings.judged().size()));
     const Eigen::Index rows = std::min(first, residuals.size());
     early += residuals.head(rows).squaredNorm() - static_cast<double>(rows);
     all += residuals.squaredNorm() - static_cast<double>(residuals.size());
@@ -47,7 +47,7 @@ Start look_at_start(const Experiment& experiment, const Rig& corrected, const Ru
     all_rows += static_cast<double>(residuals.size());
     const auto& measured = experiment.data().runs[run];
     if (experiment.data().recorded.start == domain::Start::settled && !measured.length_is_given() &&
-        moved(measured.judged()) > limit + of_start.beyond_model * moved(readings.judged))
+        moved(measured.judged().values) > limit + of_start.beyond_model * moved(readings.judged()))
       start.unsettled.push_back(measured.id);
   }
   if (all > 0.0) start.share_of_gap = std::clamp(early / all, 0.0, 1.0);

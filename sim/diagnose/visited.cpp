@@ -29,7 +29,7 @@ std::string visited_by_pair(const domain::Dataset& data, const Runs& runs) {
       for (const double value : measured.given("muscle_pressure", muscle))
         pressure_bar.see(value / plant::Pa_per_bar);
     }
-    for (const double value : data.runs[run].angle_rad) angle_deg.see(value / plant::degree_rad);
+    for (const double value : data.runs[run].values("angle")) angle_deg.see(value / plant::degree_rad);
   }
   const bool given = data.pressure_is_given();
   const Range& driven = given ? pressure_bar : current_mA;
@@ -46,10 +46,10 @@ std::string visited(const domain::Dataset& data, const Runs& runs) {
   for (const std::size_t run : runs) {
     for (const double value : data.runs[run].current_mA) current_mA.see(value);
     const domain::Run& measured = data.runs[run];
-    for (const double value :
-         measured.length_is_given() ? measured.measured->given("contraction") : measured.contraction_ratio)
+    for (const double value : measured.length_is_given() ? measured.measured->given("contraction")
+                                                         : measured.values("contraction"))
       ratio.see(value);
-    for (const double value : measured.angle_rad) angle_deg.see(value / plant::degree_rad);
+    for (const double value : measured.values("angle")) angle_deg.see(value / plant::degree_rad);
     if (data.pressure_is_given())
       for (const double value : measured.measured->given("muscle_pressure"))
         pressure_bar.see(value / plant::Pa_per_bar);

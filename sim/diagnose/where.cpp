@@ -199,8 +199,8 @@ std::vector<Factor> factors_of(const Experiment& experiment, const Rig& rig, con
                                const std::vector<Row>& rows) {
   double longest_s = 0.0;
   for (const std::size_t run : runs)
-    longest_s = std::max(longest_s, static_cast<double>(experiment.data().runs[run].judged().size()) *
-                                        experiment.data().row_s());
+    longest_s = std::max(longest_s,
+                         static_cast<double>(experiment.data().runs[run].rows()) * experiment.data().row_s());
   const bool pair = rig.pair() != nullptr;
   auto factors = pair ? by_joint(rig, rows) : by_muscle(experiment, rig, runs);
   if (!data::are_settled_points(experiment.data())) {

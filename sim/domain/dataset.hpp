@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,18 +29,14 @@ constexpr auto names(Judged) {
                     std::pair{pressure, std::string_view{"pressure"}}};
 }
 
-/// What may have been read beside it, in the order in which it is reported; of a pair the opposite ones too.
-enum class Beside { muscle_pressure, opposite_pressure, force, valve_pressure, opposite_valve_pressure };
-inline constexpr std::array gauges{Beside::muscle_pressure, Beside::opposite_pressure};
-inline constexpr std::array valve_gauges{Beside::valve_pressure, Beside::opposite_valve_pressure};
-inline constexpr std::array besides{Beside::muscle_pressure, Beside::opposite_pressure, Beside::force,
-                                    Beside::valve_pressure, Beside::opposite_valve_pressure};
-inline plant::Channel channel_of(Beside which, bool pair) {
-  if (which == Beside::force) return {&plant::signal_of("force")};
-  const bool muscle = which == Beside::muscle_pressure || which == Beside::opposite_pressure;
-  const bool first = which == Beside::muscle_pressure || which == Beside::valve_pressure;
-  return {&plant::signal_of(muscle ? "muscle_pressure" : "valve_pressure"), !pair ? 0U : first ? 1U : 2U};
-}
+/// What was read of a signal in a run: a value each row, straight over rows in which there was none.
+struct Reading {
+  plant::Channel channel;
+  std::vector<double> values{};
+  std::vector<bool> missing{};  ///< of these rows; empty: none is
+
+  bool is_missing(std::size_t row) const { return !missing.empty() && missing[row]; }
+};
 
 /// One measured run: a row each tick, the first at time 0; or `measured` with a clock of its own.
 struct Run {
@@ -54,59 +52,42 @@ struct Run {
   double from_s = 0.0, to_s = 0.0;  ///< since the first of its rows; 0: to the end
 
   std::vector<double> current_mA;  ///< held from its row to the next
-  std::vector<double> contraction_ratio;
-  std::vector<double> force_N;    ///< of the cord: judged where the length is given, else beside
-  std::vector<double> angle_rad;  ///< of a pair or a lever
-  std::optional<std::vector<double>> muscle_pressure_Pa;
-  std::optional<std::vector<double>> opposite_pressure_Pa;  ///< of muscle 2
-  std::optional<std::vector<double>> valve_pressure_Pa, opposite_valve_pressure_Pa;
-  double ratio_per_unit = 1.0;  ///< of contraction: what one of its file's unit is
-  double rest_length_m = 0.0;   ///< that its rise was divided by; 0: that of the rig it is compared with
+  std::vector<Reading> readings;   ///< models are judged by the first; none: `measured` has no rows yet
+  double ratio_per_unit = 1.0;     ///< of contraction: what one of its file's unit is
+  double rest_length_m = 0.0;      ///< that its rise was divided by; 0: that of the rig it is compared with
 
-  std::optional<Measurement> measured;  ///< in place of these three; or what stands behind their rows (Rows)
+  std::optional<Measurement> measured;  ///< in place of these; or what stands behind their rows (Rows)
   std::optional<Measurement> shaken;    ///< the same, with as much noise again on a pressure that is given
   std::vector<double> time_s;           ///< of rows made of stamps, since the first stamp; else empty
-  std::vector<bool> missing;  ///< rows of theirs without a reading of what is judged; empty: none is
-  std::array<std::vector<bool>, besides.size()> missing_beside;  ///< the same of what was read beside it
 
-  /// The reading that a model is judged by.
-  Judged kind_of_judged() const {
-    if (!angle_rad.empty()) return Judged::angle;
-    if (reads_only_pressures()) return Judged::pressure;
-    return length_is_given() ? Judged::force : Judged::contraction;
+  /// The reading that a model is judged by. Throws std::out_of_range before there are rows.
+  const Reading& judged() const { return readings.at(0); }
+  Reading& judged() { return readings.at(0); }
+  std::size_t rows() const { return readings.empty() ? 0 : judged().values.size(); }
+  /// What was read beside it.
+  std::span<const Reading> beside() const { return {readings.begin() + !readings.empty(), readings.end()}; }
+  /// By its key in a data set's `columns`, without the muscle's number; null if it was not read.
+  const Reading* find(std::string_view key, std::size_t muscle = 1) const {
+    const auto at = std::ranges::find_if(
+        readings, [&](const Reading& reading) { return reading.channel.is(key, muscle); });
+    return at == readings.end() ? nullptr : &*at;
   }
-  const std::vector<double>& judged() const { return const_cast<Run*>(this)->judged(); }
-  std::vector<double>& judged() {
-    const Judged kind = kind_of_judged();
-    if (const auto which = kind == Judged::pressure ? first_gauge() : std::nullopt) return *gauge(*which);
-    return kind == Judged::angle ? angle_rad : kind == Judged::force ? force_N : contraction_ratio;
+  Reading* find(std::string_view key, std::size_t muscle = 1) {
+    return const_cast<Reading*>(std::as_const(*this).find(key, muscle));
   }
-  /// Of rows: the gauge that is judged, the first there is, where nothing but pressures was read.
-  std::optional<Beside> judged_gauge() const { return reads_only_pressures() ? first_gauge() : std::nullopt; }
-  /// What was read beside it; null if it was not.
-  const std::vector<double>* beside(Beside which) const {
-    if (which == Beside::force) return force_N.empty() || length_is_given() ? nullptr : &force_N;
-    const auto& read = const_cast<Run*>(this)->gauge(which);
-    return read && which != judged_gauge() ? &*read : nullptr;
+  /// Of these the values; empty if it was not read.
+  const std::vector<double>& values(std::string_view key, std::size_t muscle = 1) const {
+    static const std::vector<double> none;
+    const Reading* reading = find(key, muscle);
+    return reading != nullptr ? reading->values : none;
   }
-  std::optional<std::vector<double>>& gauge(Beside which) {
-    if (which == Beside::muscle_pressure) return muscle_pressure_Pa;
-    if (which == Beside::opposite_pressure) return opposite_pressure_Pa;
-    return which == Beside::valve_pressure ? valve_pressure_Pa : opposite_valve_pressure_Pa;
-  }
-  bool is_missing(Beside which, std::size_t row) const {
-    const auto& rows = missing_beside[static_cast<std::size_t>(which)];
-    return !rows.empty() && rows[row];
+  /// A further one. `muscle`: 1 or 2 of a pair's.
+  Reading& read(std::string_view key, std::vector<double> values = {}, std::size_t muscle = 0) {
+    return readings.emplace_back(plant::Channel{quantity_of(key).channel.signal, muscle}, std::move(values));
   }
   bool length_is_given() const { return measured && measured->gives_length(); }
   bool reads_only_pressures() const {
-    if (!contraction_ratio.empty() || !force_N.empty() || !angle_rad.empty()) return false;
-    return first_gauge() || (measured && measured->reads_only_pressures());
-  }
-  std::optional<Beside> first_gauge() const {
-    for (const Beside which : besides)
-      if (which != Beside::force && const_cast<Run*>(this)->gauge(which)) return which;
-    return std::nullopt;
+    return readings.empty() ? measured && measured->reads_only_pressures() : judged().channel.is_pressure();
   }
 
   static void fields(auto& self, auto& visit) {
@@ -130,14 +111,14 @@ struct Run {
 
 /// How rows were made of stamps, over all runs.
 struct Rows {
-  double row_s = 0.0;                                ///< from row to row
-  std::size_t stamps = 0, rows = 0, inputs = 0;      ///< in the files; judged; that drive the simulation
-  double readings = 1.0;                             ///< in a row, on average
-  double noise = 0.0, pressure_noise_Pa = 0.0;       ///< of a row's values, by what the readings scatter
-  double force_noise_N = 0.0, valve_noise_Pa = 0.0;  ///< of a force, a valve's pressure, read beside
-  double step = 0.0;                                 ///< that the readings are rounded to
-  double given_noise_Pa = 0.0;                       ///< of a reading of a pressure that is given
-  bool smoothed = false;                             ///< that pressure was
+  double row_s = 0.0;                            ///< from row to row
+  std::size_t stamps = 0, rows = 0, inputs = 0;  ///< in the files; judged; that drive the simulation
+  double readings = 1.0;                         ///< in a row, on average
+  double noise = 0.0;  ///< of a row's values of what is judged, by what the readings scatter
+  std::map<std::string_view, double> noise_beside{};  ///< the same of other signals, by their keys
+  double step = 0.0;                                  ///< that the readings are rounded to
+  double given_noise_Pa = 0.0;                        ///< of a reading of a pressure that is given
+  bool smoothed = false;                              ///< that pressure was
   std::size_t slack = 0;       ///< readings of force that are none: the cord hung through
   std::size_t at_the_end = 0;  ///< and those at the end of the load cell's range
 

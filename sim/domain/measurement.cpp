@@ -10,7 +10,7 @@ namespace {
 const std::vector<double> nothing;
 
 auto find(auto& columns, std::string_view key, std::size_t muscle) {
-  return std::ranges::find_if(columns, [&](const auto& column) { return column.is(key, muscle); });
+  return std::ranges::find_if(columns, [&](const auto& column) { return column.channel.is(key, muscle); });
 }
 
 std::vector<double>& column_of(Measurement& measured, std::string_view key, std::size_t muscle, bool given) {
@@ -54,7 +54,7 @@ bool Measurement::reads_only_pressures() const {
   bool any = false;
   for (const MeasuredColumn& column : columns)
     if (!column.given && is_read(column.values)) {
-      if (!column.is_pressure()) return false;
+      if (!column.channel.is_pressure()) return false;
       any = true;
     }
   return any;

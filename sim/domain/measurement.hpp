@@ -51,17 +51,8 @@ struct MeasuredColumn {
   bool given = false;  ///< it drives the rig, and what is upstream of it does not exist
   std::vector<double> values{};
 
-  /// By its key in a data set's `columns`; muscle 1 is that of one muscle, too.
-  bool is(std::string_view key, std::size_t muscle) const {
-    return channel.signal->in_dataset == key && (channel.muscle == 2) == (muscle == 2);
-  }
   /// Held from its stamp to the next; all else that is given runs straight.
   bool is_command() const { return channel.signal->in_dataset == command_key; }
-  /// Of a muscle.
-  bool is_pressure() const {
-    return channel.signal->unit.name == plant::units::bar.name &&
-           channel.signal->part == plant::Part::muscle && !is_command();
-  }
 };
 
 /// Whether one of the values is there.

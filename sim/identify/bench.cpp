@@ -79,11 +79,11 @@ class FaultReport {
 
   /// Of what is judged and what was read with it, changed.
   std::string lines_of_readings(const auto& change) const {
-    std::vector<std::string> keys{judged_key(run(0))};
-    for (const auto& kind : rows_.kinds)
-      if (kind) keys.push_back(data::told(*kind, data_.rig.pair() != nullptr).first);
     std::vector<std::string> lines;
-    for (const std::string& key : keys) lines.push_back(domain::line_of(key, change(place_of(run(0), key))));
+    for (const plant::Channel& kind : rows_.kinds) {
+      const std::string key = kind.key_in_dataset();
+      lines.push_back(domain::line_of(key, change(place_of(run(0), key))));
+    }
     return fmt::format("{}", fmt::join(lines, ", "));
   }
 
@@ -322,11 +322,7 @@ class FaultReport {
                                                          : std::string(data::unit_in_words(data_.judged()));
   }
 
-  std::string judged_key(const domain::Run& of) const {
-    const auto gauge = of.judged_gauge();
-    return gauge ? data::told(*gauge, data_.rig.pair() != nullptr).first
-                 : std::string(plant::name_of(data_.judged()));
-  }
+  std::string judged_key(const domain::Run& of) const { return of.judged().channel.key_in_dataset(); }
   domain::ColumnPlace place_of(const domain::Run& of, const std::string& key) const {
     return data::with_our_names(domain::merged(data_.columns, of.columns), data_.rig.command_unit())[key];
   }
@@ -338,13 +334,12 @@ class FaultReport {
   /// A run's own place for the judged reading, with what is off taken out. Empty where its unit's size is not
   /// known here.
   std::string column_line(const domain::Run& of, double zero, double factor, double deviation) const {
-    const auto gauge = of.judged_gauge();
     const std::string key = judged_key(of);
     domain::ColumnPlace place = place_of(of, key);
-    const std::optional<double> size = gauge                  ? data::size_Pa(place.unit)
-                                       : key == "contraction" ? of.ratio_per_unit
-                                       : place.unit == "deg"  ? plant::degree_rad
-                                                              : 1.0;
+    const std::optional<double> size = of.judged().channel.is_pressure() ? data::size_Pa(place.unit)
+                                       : key == "contraction"            ? of.ratio_per_unit
+                                       : place.unit == "deg"             ? plant::degree_rad
+                                                                         : 1.0;
     if (!size) return "";
     place.zero += zero / (place.factor * *size);
     place.factor *= factor;

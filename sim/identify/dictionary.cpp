@@ -214,7 +214,7 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
   const double rest_length_m = described_.muscle.rest_length_m;
   double reach = 0.0;
   for (const domain::Run& run : data.runs)
-    for (const double read : run.judged()) reach = std::max(reach, std::abs(read));
+    for (const double read : run.judged().values) reach = std::max(reach, std::abs(read));
   reach_m = reach * rest_length_m;
   if (data.judged() != domain::Judged::contraction) reach_m = 0.3 * rest_length_m;
   forces_show = data.judged() != domain::Judged::pressure;

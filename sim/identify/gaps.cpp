@@ -54,10 +54,11 @@ diagnose::Gap gap_of(const Identified& found, const Three& three, const diagnose
   if (above(gap.nominal_rmse) > 0.0)
     gap.closed = std::clamp(1.0 - above(gap.corrected_rmse) / above(gap.nominal_rmse), 0.0, 1.0);
   for (std::size_t kind = 1; kind < rows.kinds.size(); ++kind) {
-    const auto [reading, unit] = data::told(*rows.kinds[kind], rows.data().rig.pair() != nullptr);
+    const plant::Channel& of_kind = rows.kinds[kind];
     const auto of = [&](const Eigen::VectorXd& left) { return rms_of_kind(rows, left, kind, {}); };
-    gap.beside.push_back({reading, std::string(unit), floor.beside(*rows.kinds[kind]), of(three.by_nominal),
-                          of(three.by_recalibrated), of(three.by_corrected)});
+    gap.beside.push_back({of_kind.key_in_dataset(), std::string(data::si_unit(*of_kind.signal)),
+                          floor.beside(of_kind), of(three.by_nominal), of(three.by_recalibrated),
+                          of(three.by_corrected)});
   }
   return gap;
 }
@@ -75,7 +76,7 @@ std::vector<diagnose::RunGap> gaps_of_runs(const Identified& found, const Three&
     gap.held_out = std::ranges::find(rows.runs, run) != rows.runs.end();
     gap.left_out = !gap.held_out;
     if (gap.left_out) left_out.push_back(run);
-    gap.measured = runs[run].judged();
+    gap.measured = runs[run].judged().values;
     for (double& read : gap.measured) read += experiment.floor().middle;
   }
   const auto tell = [&](const Model& model, const Eigen::VectorXd& left, double diagnose::RunGap::*rmse,
@@ -92,7 +93,7 @@ std::vector<diagnose::RunGap> gaps_of_runs(const Identified& found, const Three&
     for (std::size_t i = 0; i < left_out.size(); ++i) {
       const std::size_t run = left_out[i];
       gaps[run].*rmse = experiment.rmse(experiment.residuals(readings[i], run), {run});
-      gaps[run].*simulated = std::move(readings[i].judged);
+      gaps[run].*simulated = std::move(readings[i].readings.front());
     }
   };
   tell(three.nominal, three.by_nominal, &diagnose::RunGap::nominal_rmse, &diagnose::RunGap::nominal);

@@ -37,7 +37,7 @@ domain::Dataset without_faults(const Model& model) {
   for (std::size_t i = 0; i < rows.runs.size(); ++i) {
     domain::Run& run = data.runs[rows.runs[i]];
     double own_kg = 0.0;
-    std::vector<double>& read = run.judged();
+    std::vector<double>& read = run.judged().values;
     double zero = bench.zero, gain = 0.0, drift_per_s = 0.0, late_s = 0.0;
     for (std::size_t place = 0; place < model.point.differ.size(); ++place) {
       const double own = values_of(model, place)[i];

@@ -25,9 +25,14 @@ struct Foreseen {
   Eigen::MatrixXd columns;
 };
 
-using Reading = std::vector<double> data::Expected::*;
+const std::vector<double>& judged(const diagnose::Readings& readings) {
+  return readings.judged();
+}
+const std::vector<double>& pressure_Pa(const diagnose::Readings& readings) {
+  return readings.pressure_Pa;
+}
 
-Foreseen foreseen(const Model& model, const domain::Run& run, Reading reading = &data::Expected::judged) {
+Foreseen foreseen(const Model& model, const domain::Run& run, decltype(judged)& reading = judged) {
   const Dictionary& dictionary = model.problem->dictionary;
   const Eigen::VectorXd v = dictionary.vector(model.point);
   std::vector<diagnose::Loaded> rigs;
@@ -48,7 +53,7 @@ Foreseen foreseen(const Model& model, const domain::Run& run, Reading reading = 
     for (std::size_t i = first; i < last; ++i) group.push_back(rigs[i]);
     const auto readings = diagnose::predict(run, group, model.problem->rows.data().rig.integrator.method);
     const auto of = [&](std::size_t i) {
-      const std::vector<double>& read = readings[i].*reading;
+      const std::vector<double>& read = reading(readings[i]);
       return Eigen::Map<const Eigen::VectorXd>(read.data(), std::ssize(read));
     };
     if (first == 0) {
@@ -103,7 +108,7 @@ std::optional<diagnose::NextSensor> next_sensor(const Model& one, const Model& o
                                                 std::vector<std::string> names, unsigned threads) {
   const domain::Dataset& data = one.problem->rows.data();
   if (data.pressure_is_given() || data.rig.pair() != nullptr ||
-      std::ranges::any_of(data.runs, [](const auto& run) { return run.muscle_pressure_Pa.has_value(); }))
+      std::ranges::any_of(data.runs, [](const auto& run) { return run.find("muscle_pressure") != nullptr; }))
     return std::nullopt;
   const plant::Rig rigs[] = {rig_of(one), rig_of(other)};
   const std::vector<std::size_t>& runs = one.problem->rows.runs;
@@ -121,7 +126,7 @@ std::optional<diagnose::NextSensor> next_sensor(const Model& one, const Model& o
   const auto best = static_cast<std::size_t>(std::ranges::max_element(apart) - apart.begin());
   const domain::Run& run = data.runs[runs[best]];
   const auto with_gauge = [&](const Model& model) {
-    Foreseen by = foreseen(model, run, &data::Expected::pressure_Pa);
+    Foreseen by = foreseen(model, run, pressure_Pa);
     // A gauge has a zero and a gain of its own.
     const diagnose::PlanThresholds& usual = diagnose::thresholds.plan;
     by.columns.conservativeResize(by.read.size(), by.columns.cols() + 2);

@@ -42,29 +42,31 @@ double grid_of(const std::vector<double>& readings) {
 
 Rows::Rows(const domain::Dataset& data, const std::vector<std::vector<bool>>& masked,
            const std::vector<std::size_t>& which)
-    : runs(which), kinds{std::nullopt}, row_s(data.row_s()), data_(&data) {
+    : runs(which), kinds{data.runs[which.front()].judged().channel}, row_s(data.row_s()), data_(&data) {
   const diagnose::NoiseFloor floor = diagnose::noise_floor(data, masked, runs);
   noise.push_back(std::max(floor.jitter, floor.judged));
   sensor_count = count = floor.count;
-  for (const domain::Beside beside : domain::besides)
-    if (std::ranges::any_of(runs,
-                            [&](std::size_t run) { return data.runs[run].beside(beside) != nullptr; })) {
-      kinds.push_back(beside);
-      noise.push_back(std::max(floor.beside(beside), 1e-12));
-    }
+  for (const std::size_t run : runs)
+    for (const domain::Reading& reading : data.runs[run].beside())
+      if (std::ranges::find(kinds, reading.channel) == kinds.end()) {
+        kinds.push_back(reading.channel);
+        noise.push_back(std::max(floor.beside(reading.channel), 1e-12));
+      }
   std::vector<double> values;
   for (std::size_t kind = 0; kind < kinds.size(); ++kind)
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const domain::Run& run = data.runs[runs[i]];
-      const std::vector<double>* list = kind == 0 ? &run.judged() : run.beside(*kinds[kind]);
-      if (list == nullptr) continue;
-      blocks.push_back({i, kind, static_cast<Eigen::Index>(values.size()), std::ssize(*list)});
-      longest_s = std::max(longest_s, row_s * static_cast<double>(list->size()));
-      for (std::size_t k = 0; k < list->size(); ++k) {
-        const bool missing =
-            kind == 0 ? !run.missing.empty() && run.missing[k] : run.is_missing(*kinds[kind], k);
-        known.push_back(!missing && !masked[runs[i]][k] ? 1 : 0);
-        values.push_back((*list)[k] + (kind == 0 ? floor.middle : 0.0));
+      const auto at = kind == 0 ? run.readings.begin()
+                                : std::ranges::find(run.readings, kinds[kind], &domain::Reading::channel);
+      if (at == run.readings.end()) continue;
+      const domain::Reading& reading = *at;
+      const auto place = static_cast<std::size_t>(at - run.readings.begin());
+      blocks.push_back(
+          {i, kind, place, static_cast<Eigen::Index>(values.size()), std::ssize(reading.values)});
+      longest_s = std::max(longest_s, row_s * static_cast<double>(reading.values.size()));
+      for (std::size_t k = 0; k < reading.values.size(); ++k) {
+        known.push_back(!reading.is_missing(k) && !masked[runs[i]][k] ? 1 : 0);
+        values.push_back(reading.values[k] + (kind == 0 ? floor.middle : 0.0));
         if (!std::isfinite(values.back())) {
           values.back() = 0.0;
           known.back() = 0;
@@ -82,7 +84,7 @@ void Rows::find_counts() {
     const domain::Run& one = data_->runs[run];
     if (one.measured && one.measured->point_s > 0.0)
       continue;  // even steps of what was set make even readings
-    if (const double step = grid_of(one.judged()); step > 0.0) steps.push_back(step);
+    if (const double step = grid_of(one.judged().values); step > 0.0) steps.push_back(step);
   }
   const double grid = 2 * steps.size() > runs.size() ? data::median(std::move(steps)) : 0.0;
   // Readings that were written more coarsely than they were counted.

@@ -1,7 +1,6 @@
 // What was read, as rows that are even in time: the judged reading of each run, then what was read beside it.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,9 +9,9 @@
 
 namespace mckibben::identify {
 
-/// One reading of one run.
+/// One reading of one run, `reading` among its own.
 struct Block {
-  std::size_t run = 0, kind = 0;
+  std::size_t run = 0, kind = 0, reading = 0;
   Eigen::Index begin = 0, rows = 0;
 };
 
@@ -29,8 +28,7 @@ class Rows {
 
   std::vector<std::size_t> runs;
   std::vector<Block> blocks;
-  std::vector<std::optional<domain::Beside>>
-      kinds;                            ///< of readings; the first, the judged one, is none of these
+  std::vector<plant::Channel> kinds;    ///< of readings; the first is the judged one
   Eigen::VectorXd read;                 ///< a counter's: the middle of its count
   std::vector<char> known;              ///< of each row: whether there is a reading
   double row_s = 0.0, longest_s = 0.0;  ///< of a row, of a run

@@ -25,7 +25,7 @@ constexpr double load_step = 0.1;
 
 /// What one setting reads in a block's rows.
 Eigen::VectorXd seen(const Rows& rows, const Block& block, const Readings& readings, const Bench& bench) {
-  const auto& list = block.kind == 0 ? readings.judged : readings.beside(*rows.kinds[block.kind]);
+  const std::vector<double>& list = readings.readings[block.reading];
   Eigen::VectorXd part = Eigen::Map<const Eigen::VectorXd>(list.data(), block.rows);
   const double ahead_s = bench.ahead_s - (block.kind == 0 ? bench.of_run(delays, block.run) : 0.0);
   if (bench.clock != 0.0 || ahead_s != 0.0) part = clocked(part, bench.clock, ahead_s / rows.row_s);
@@ -257,8 +257,7 @@ Wander Simulator::wander(const Setting& setting) const {
   std::size_t most = 0;
   for (const std::size_t run : rows_.runs) {
     const domain::Run& measured = data.runs[run];
-    const double lasts_s =
-        std::max(rows_.row_s * static_cast<double>(measured.judged().size() - 1), rows_.row_s);
+    const double lasts_s = std::max(rows_.row_s * static_cast<double>(measured.rows() - 1), rows_.row_s);
     const auto pieces = static_cast<std::size_t>(
         std::clamp(std::ceil(lasts_s / decisive.wander_knot_s), 1.0, static_cast<double>(most_knots)));
     std::vector<double> knots{-lasts_s / static_cast<double>(pieces)};

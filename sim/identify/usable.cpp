@@ -46,8 +46,9 @@ Usable usable(domain::Dataset& data, unsigned threads) {
       for (const std::size_t run : finding.runs) left_out[run] = false;  // doubted for its load alone
   std::erase_if(examined.findings, [](const data::Finding& one) { return one.quantity == "load"; });
   data::raise(data, examined.findings);
-  for (const std::size_t run : examined.dead_gauges) data.runs[run].muscle_pressure_Pa.reset();
-  for (const std::size_t run : examined.dead_opposite_gauges) data.runs[run].opposite_pressure_Pa.reset();
+  for (const auto& [run, channel] : examined.dead_gauges)
+    std::erase_if(data.runs[run].readings,
+                  [&](const domain::Reading& reading) { return reading.channel == channel; });
   Usable result{.masked = std::move(examined.masked), .runs = {}};
   data::require_enough(data, left_out, examined.findings);
   data::raise_for_diagnosis(data, examined.findings);

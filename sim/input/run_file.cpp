@@ -144,11 +144,10 @@ void read_table_of(const Source& source, const ColumnMap& map, const Dataset& da
   check_clock(table, map, dataset.rig, found);
   check_numbers(table, map, dataset.rig, found);
   run.current_mA = std::move(current->values);
-  run.contraction_ratio = std::move(contraction->values);
-  if (Table::Column* pressure = table.find("muscle_pressure_bar")) {
-    run.muscle_pressure_Pa = std::move(pressure->values);
-    for (double& value : *run.muscle_pressure_Pa) value *= plant::Pa_per_bar;
-  }
+  run.read("contraction", std::move(contraction->values));
+  if (Table::Column* pressure = table.find("muscle_pressure_bar"))
+    for (double& value : run.read("muscle_pressure", std::move(pressure->values)).values)
+      value *= plant::Pa_per_bar;
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ class Assembling {
       measured_.give("contraction").assign(measured_.time_s.size(), 0.0);
     // What is judged first, pressures last.
     std::stable_partition(measured_.columns.begin(), measured_.columns.end(),
-                          [](const auto& column) { return !column.is_pressure(); });
+                          [](const auto& column) { return !column.channel.is_pressure(); });
     measured_.angle_in_degrees = map_["angle"].unit == "deg";
     measured_.counted = map_[rig_.has_angle() ? "angle" : "contraction"].unit == "count";
     measured_.own_clocks = has_own_clocks(map_);

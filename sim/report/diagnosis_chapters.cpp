@@ -243,7 +243,7 @@ std::string beside_html(const diagnose::Gap& gap) {
 
 bool gauged(const domain::Dataset& data) {
   return std::any_of(data.runs.begin(), data.runs.end(),
-                     [](const auto& run) { return run.muscle_pressure_Pa.has_value(); });
+                     [](const auto& run) { return run.find("muscle_pressure") != nullptr; });
 }
 
 double left_of(const diagnose::RunGap& run, bool changed) {

@@ -16,27 +16,32 @@
 namespace mckibben::report {
 namespace {
 
+/// Muscle pressures as they were read.
+void add_gauges(Run& run, const domain::Run& measured) {
+  for (const domain::Reading& read : measured.readings)
+    if (read.channel.signal->key == "muscle_pressure")
+      run.quantities.push_back(
+          {read.channel.key(), [&read](std::size_t k) { return read.values[k] / plant::Pa_per_bar; }});
+}
+
 /// Of a load, or of a lever with the contraction that its angle means.
 Run shown(const domain::Run& measured, std::size_t style, const plant::Plant& plant) {
   const bool angle = plant.rig().has_angle();
   const std::vector<double>& commands = angle ? measured.measured->given("command") : measured.current_mA;
-  Run run{.name = measured.id, .style = style, .ticks = measured.judged().size()};
+  Run run{.name = measured.id, .style = style, .ticks = measured.rows()};
   if (angle)
     run.quantities.push_back(
-        {"angle", [&measured](std::size_t k) { return in_degrees * measured.angle_rad[k]; }});
+        {"angle", [&measured](std::size_t k) { return in_degrees * measured.judged().values[k]; }});
   run.quantities.push_back({"contraction_ratio", [&measured, plant, angle](std::size_t k) {
-                              return angle ? plant.ratio_at_rad(measured.angle_rad[k])
-                                           : measured.contraction_ratio[k];
+                              const double read = measured.judged().values[k];
+                              return angle ? plant.ratio_at_rad(read) : read;
                             }});
   run.quantities.push_back(
       {plant::command_key(plant.rig()), [&commands](std::size_t k) { return commands[k]; }});
   run.quantities.push_back({"reference_pressure", [&commands, plant](std::size_t k) {
                               return plant.reference_pressure_Pa(commands[k]) / plant::Pa_per_bar;
                             }});
-  if (measured.muscle_pressure_Pa)
-    run.quantities.push_back({"muscle_pressure", [&measured](std::size_t k) {
-                                return (*measured.muscle_pressure_Pa)[k] / plant::Pa_per_bar;
-                              }});
+  add_gauges(run, measured);
   return run;
 }
 
@@ -49,11 +54,13 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::R
   };
   const double radius_m = rig.joint.wheel_radius_m;
   const auto contraction = [&measured](double mounted, double per_rad) {
-    return [&measured, mounted, per_rad](std::size_t k) { return mounted + per_rad * measured.angle_rad[k]; };
+    return [&measured, mounted, per_rad](std::size_t k) {
+      return mounted + per_rad * measured.judged().values[k];
+    };
   };
-  Run run{.name = measured.id, .style = style, .ticks = measured.angle_rad.size()};
+  Run run{.name = measured.id, .style = style, .ticks = measured.rows()};
   run.quantities = {
-      {"angle", [&measured](std::size_t k) { return in_degrees * measured.angle_rad[k]; }},
+      {"angle", [&measured](std::size_t k) { return in_degrees * measured.judged().values[k]; }},
       {"contraction_ratio_1", contraction(pair.contraction_ratio, radius_m / rig.muscle.rest_length_m)},
       {"contraction_ratio_2",
        contraction(pair.opposite_contraction_ratio, -radius_m / pair.opposite.muscle.rest_length_m)},
@@ -66,12 +73,7 @@ Run shown_of_pair(const domain::Run& measured, std::size_t style, const plant::R
       {"reference_pressure_2", [mA = current_mA(2), plant](std::size_t k) {
          return plant.opposite()->reference_pressure_Pa((*mA)[k]) / plant::Pa_per_bar;
        }}};
-  const auto gauge = [&run](const char* key, const std::optional<std::vector<double>>& read) {
-    if (read)
-      run.quantities.push_back({key, [&read](std::size_t k) { return (*read)[k] / plant::Pa_per_bar; }});
-  };
-  gauge("muscle_pressure_1", measured.muscle_pressure_Pa);
-  gauge("muscle_pressure_2", measured.opposite_pressure_Pa);
+  add_gauges(run, measured);
   return run;
 }
 
@@ -117,7 +119,7 @@ void add_parts(Contents& contents, const domain::Campaign& campaign, const std::
                                      rig));
       group.ticks = std::max(group.ticks, group.runs.back().ticks);
       part.add({1, group.runs.back().ticks,
-                angle ? run.angle_rad : run::Span{0.0, std::ranges::max(measured.contraction_ratio)}});
+                angle ? run.angle_rad : run::Span{0.0, std::ranges::max(measured.judged().values)}});
     }
     const bool any = !group.runs.empty();
     const std::size_t place = contents.groups.size();
@@ -173,7 +175,7 @@ std::string report_html(const domain::Campaign& campaign, const std::vector<run:
       .gauge = dataset.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr,
       .plots = measured_plots(dataset.rig, pair),
       .loops = measured_loops(dataset.rig, std::ranges::any_of(dataset.runs, [](const domain::Run& run) {
-                                return run.muscle_pressure_Pa.has_value();
+                                return run.find("muscle_pressure") != nullptr;
                               }))};
   add_parts(contents, campaign, ended, dataset);
   return html_of(contents);

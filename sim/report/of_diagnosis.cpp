@@ -31,7 +31,7 @@ std::vector<RunGap> as_described(const domain::Dataset& data, const std::vector<
   std::vector<RunGap> runs;
   for (std::size_t i = 0; i < std::min(data.runs.size(), nominal.size()); ++i) {
     runs.push_back({.id = data.runs[i].id, .load_kg = data.runs[i].load_kg});
-    runs.back().measured = data.runs[i].judged();
+    runs.back().measured = data.runs[i].judged().values;
     const plant::Signal& read = plant::signal_of(output::words_of(data.judged()).signal);
     for (const auto& sample : nominal[i].recording.samples)
       runs.back().nominal.push_back(read.value(sample, 0));
@@ -72,6 +72,12 @@ bool is_shown(const std::string& key, diagnose::Judged judged) {
 }
 
 /// One model's readings, and what else it did where it was replayed.
+/// The force of the cord that was read beside what is judged [N]; null if none was.
+const std::vector<double>* force_beside(const domain::Run& run) {
+  const domain::Reading* force = run.find("force");
+  return force != nullptr && force != &run.judged() ? &force->values : nullptr;
+}
+
 Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vector<double>& readings,
           const ReplayedRun* replayed, const domain::Run* recorded, const plant::Rig& rig,
           diagnose::Judged judged) {
@@ -85,7 +91,7 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
   for (auto& quantity : quantities_of(replayed->recording, rig))
     if (is_shown(quantity.key, judged)) run.quantities.push_back(std::move(quantity));
   if (recorded == nullptr || judged == diagnose::Judged::angle) return run;
-  if (const auto* force_N = recorded->beside(domain::Beside::force)) {
+  if (const auto* force_N = force_beside(*recorded)) {
     const auto pull_N = [replayed](std::size_t k) {
       return std::max(replayed->recording.samples[k].cord_force_N, 0.0);
     };
@@ -93,11 +99,11 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
     run.quantities.push_back(
         {"force_error", [force_N, pull_N](std::size_t k) { return (*force_N)[k] - pull_N(k); }});
   }
-  if (recorded->beside(domain::Beside::muscle_pressure) != nullptr)
-    run.quantities.push_back({"muscle_pressure_error", [replayed, recorded](std::size_t k) {
+  if (const domain::Reading* gauge = recorded->find("muscle_pressure"))
+    run.quantities.push_back({"muscle_pressure_error", [replayed, gauge](std::size_t k) {
                                 const double shown_Pa =
                                     replayed->recording.samples[k].shown[plant::Sensed::muscle_pressure];
-                                return ((*recorded->muscle_pressure_Pa)[k] - shown_Pa) / plant::Pa_per_bar;
+                                return (gauge->values[k] - shown_Pa) / plant::Pa_per_bar;
                               }});
   return run;
 }
@@ -113,7 +119,7 @@ void add_given(Group& group, const domain::Run& recorded, const plant::Rig& rig)
              return plant.reference_pressure_Pa(recorded.current_mA[k]) / 1e5;
            }});
   }
-  if (const auto* force_N = recorded.beside(domain::Beside::force))
+  if (const auto* force_N = force_beside(recorded))
     group.given.push_back({"given_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
 }
 
@@ -142,17 +148,14 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
     group.given.push_back({"weight", [weight_N](std::size_t) { return weight_N; }});
   }
   const domain::Run* recorded = by_id(data.runs, gap.id);
-  if (recorded != nullptr && recorded->judged().size() < group.ticks) recorded = nullptr;
+  if (recorded != nullptr && recorded->rows() < group.ticks) recorded = nullptr;
   if (recorded != nullptr) {
     group.time_s = recorded->time_s;
     if (!pair) add_given(group, *recorded, data.rig);
-    for (const domain::Beside which : domain::gauges)
-      if (const auto* read = recorded->beside(which))
-        group.given.push_back(
-            {std::string("given_muscle_pressure") + (!pair                                      ? ""
-                                                     : which == domain::Beside::muscle_pressure ? "_1"
-                                                                                                : "_2"),
-             [read](std::size_t k) { return (*read)[k] / plant::Pa_per_bar; }});
+    for (const domain::Reading& read : recorded->beside())
+      if (read.channel.signal->in_dataset == "muscle_pressure")
+        group.given.push_back({"given_" + read.channel.key_in_dataset(),
+                               [&read](std::size_t k) { return read.values[k] / plant::Pa_per_bar; }});
   }
   if (const double left = left_of(gap, changed); !pair && std::isfinite(left) && left > 0.0)
     group.rmse = left;
@@ -175,7 +178,7 @@ std::vector<Plot> plots(const domain::Dataset& data, const Diagnosis& diagnosis)
   const output::JudgedWords& of = output::words_of(judged);
   const double floor = diagnosis.gap.noise_floor / of.size;
   const std::string error = "Error: measured less model";
-  const auto cell = [](const domain::Run& run) { return run.beside(domain::Beside::force) != nullptr; };
+  const auto cell = [](const domain::Run& run) { return force_beside(run) != nullptr; };
   auto all =
       plots_of(diagnosis.corrected,
                {.driven = {.pair = pair, .length = bench},

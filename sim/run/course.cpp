@@ -135,7 +135,7 @@ class Drives {
     double first_Pa = 0.0, step_Pa = 0.0;
     bool any = false;
     for (const auto& [column, put] : given_) {
-      if (!column->is_pressure()) continue;
+      if (!column->channel.is_pressure()) continue;
       any = true;
       first_Pa = std::max(first_Pa, std::abs(column->values.front()));
       for (std::size_t k = 1; k < column->values.size(); ++k)

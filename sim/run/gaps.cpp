@@ -22,44 +22,26 @@ struct Column {
   }
 };
 
-/// Of a row each tick, or rows made of stamps.
-std::vector<Column> rows_of(const domain::Run& run, bool pair) {
+/// Of rows, or as they were recorded.
+std::vector<Column> columns_of(const domain::Run& run) {
   std::vector<Column> all;
-  const auto add = [&](std::string_view signal, std::size_t muscle, const std::vector<double>* values,
-                       const std::vector<bool>& missing) {
-    if (values != nullptr && !values->empty())
-      all.push_back({{&plant::signal_of(signal), muscle}, values, &missing});
-  };
-  const auto gauge = run.judged_gauge();
-  if (!run.length_is_given()) add("contraction_ratio", 0, &run.contraction_ratio, run.missing);
-  add("angle", 0, &run.angle_rad, run.missing);
-  if (run.length_is_given() && !gauge) add("force", 0, &run.force_N, run.missing);
-  using enum domain::Beside;
-  for (const domain::Beside which :
-       {force, muscle_pressure, opposite_pressure, valve_pressure, opposite_valve_pressure}) {
-    const plant::Channel channel = domain::channel_of(which, pair);
-    add(channel.signal->key, channel.muscle, which == gauge ? &run.judged() : run.beside(which),
-        which == gauge ? run.missing : run.missing_beside[static_cast<std::size_t>(which)]);
-  }
-  return all;
-}
-
-std::vector<Column> stamps_of(const domain::Measurement& measured) {
-  std::vector<Column> all;
-  for (const domain::MeasuredColumn& column : measured.columns)
+  for (const domain::Reading& reading : run.readings)
+    if (!reading.values.empty()) all.push_back({reading.channel, &reading.values, &reading.missing});
+  if (!run.readings.empty() || !run.measured) return all;
+  for (const domain::MeasuredColumn& column : run.measured->columns)
     if (!column.given && !column.values.empty()) all.push_back({column.channel, &column.values});
   return all;
 }
 
 bool has_rows(const domain::Run& run) {
-  return !run.measured || !run.judged().empty();
+  return !run.measured || !run.readings.empty();
 }
 
 }  // namespace
 
 std::vector<Compared> compared(const domain::Run& run, const plant::Rig& rig, const Recording& recording) {
   const bool rows = has_rows(run), counted = rows ? !run.measured : run.measured->counted;
-  const bool degrees = run.measured && run.measured->angle_in_degrees, pair = rig.pair() != nullptr;
+  const bool degrees = run.measured && run.measured->angle_in_degrees;
   const double length_m = rig.muscle.rest_length_m;
   // What a sensor would show.
   const auto simulated = [&](const plant::Channel& channel) -> std::function<double(const Sample&)> {
@@ -81,7 +63,7 @@ std::vector<Compared> compared(const domain::Run& run, const plant::Rig& rig, co
     return value;
   };
   std::vector<Compared> all;
-  for (const Column& column : rows ? rows_of(run, pair) : stamps_of(*run.measured)) {
+  for (const Column& column : columns_of(run)) {
     const plant::Channel& channel = column.channel;
     const bool in_degrees = degrees && channel.signal->key == "angle";
     const double factor = 1.0 / (in_degrees ? plant::degree_rad : channel.signal->unit.size);

@@ -30,9 +30,10 @@ double squares(const domain::Dataset& data, const std::vector<data::Expected>& e
   double sum = 0.0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     const domain::Run& run = data.runs[i];
-    if (expected[i].judged.size() != run.judged().size()) return std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < run.judged().size(); ++k)
-      if (run.missing.empty() || !run.missing[k]) sum += std::pow(run.judged()[k] - expected[i].judged[k], 2);
+    const domain::Reading& judged = run.judged();
+    if (expected[i].judged().size() != run.rows()) return std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < run.rows(); ++k)
+      if (!judged.is_missing(k)) sum += std::pow(judged.values[k] - expected[i].judged()[k], 2);
   }
   return sum;
 }
@@ -45,7 +46,7 @@ void ask_absolute(domain::Dataset data, double squares_as_said, std::vector<data
   double lowest_Pa = std::numeric_limits<double>::infinity();
   for (domain::Run& run : data.runs)
     for (domain::MeasuredColumn& column : run.measured->columns)
-      if (column.given && column.is_pressure())
+      if (column.given && column.channel.is_pressure())
         for (double& value_Pa : column.values) {
           lowest_Pa = std::fmin(lowest_Pa, value_Pa);
           value_Pa -= data.rig.gas.atmosphere_Pa;
@@ -66,33 +67,24 @@ void ask_absolute(domain::Dataset data, double squares_as_said, std::vector<data
                       .severity = data::Severity::doubtful});
 }
 
-double pressure_Pa(const Sample& sample, domain::Beside gauge) {
-  const plant::Channel channel = domain::channel_of(gauge, true);
-  return channel.signal->value(sample, channel.muscle);
-}
-
 }  // namespace
 
 std::vector<data::Expected> expected_of(const domain::Dataset& data,
                                         const std::vector<ReplayedRun>& replayed) {
   std::vector<data::Expected> list(replayed.size());
-  const bool pair = data.rig.pair() != nullptr;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const domain::Run& run = data.runs[i];
     const double longer = run.rest_length_m > 0.0 ? data.rig.muscle.rest_length_m / run.rest_length_m : 1.0;
-    const domain::Judged judged = run.kind_of_judged();
-    const auto gauge = run.judged_gauge();
-    for (const Sample& sample : replayed[i].recording.samples) {
-      list[i].judged.push_back(gauge                             ? pressure_Pa(sample, *gauge)
-                               : judged == domain::Judged::angle ? sample.angle_rad
-                               : judged == domain::Judged::force ? sample.cord_force_N
-                                                                 : sample.shown_ratio() * longer);
-      list[i].pressure_Pa.push_back(sample.state.side.muscle_pressure_Pa);
-      if (pair) list[i].opposite_pressure_Pa.push_back(sample.state.opposite.muscle_pressure_Pa);
-      if (run.beside(domain::Beside::force) != nullptr)
-        list[i].force_N.push_back(std::max(sample.cord_force_N, 0.0));
-      for (const domain::Beside which : domain::valve_gauges)
-        if (run.beside(which) != nullptr) list[i].beside(which).push_back(pressure_Pa(sample, which));
+    const auto& samples = replayed[i].recording.samples;
+    for (const Sample& sample : samples) list[i].pressure_Pa.push_back(sample.state.side.muscle_pressure_Pa);
+    for (const auto& [channel, values, missing] : run.readings) {
+      std::vector<double>& shown = list[i].readings.emplace_back();
+      for (const Sample& sample : samples) {
+        const double value = channel.signal->value(sample, channel.muscle);
+        shown.push_back(channel.is("contraction")                       ? sample.shown_ratio() * longer
+                        : channel.is("force") && !run.length_is_given() ? std::max(value, 0.0)
+                                                                        : value);
+      }
     }
   }
   return list;
@@ -133,12 +125,8 @@ data::Compared compared(const domain::Dataset& data, const std::vector<ReplayedR
   data::Compared rows;
   for (const std::size_t i : runs) {
     const domain::Run& run = data.runs[i];
-    const auto is_reading = [&](domain::Beside which) {
-      return data::told(which, data.rig.pair() != nullptr).first == reading && run.beside(which) != nullptr;
-    };
-    const auto* const beside = std::ranges::find_if(domain::besides, is_reading);
-    rows.add(i, run, expected[i],
-             beside != std::end(domain::besides) ? std::optional(*beside) : std::nullopt);
+    for (std::size_t place = 0; place < run.readings.size(); ++place)
+      if (run.readings[place].channel.key_in_dataset() == reading) rows.add(i, run, expected[i], place);
   }
   return rows;
 }
@@ -220,8 +208,8 @@ Look look(domain::Dataset data) {
   std::size_t rows = 0;
   bool all = true;
   for (const domain::Run& run : data.runs) {
-    rows += std::min(run.judged().size(), most_rows_of_a_run);
-    all = all && run.judged().size() <= most_rows_of_a_run;
+    rows += std::min(run.rows(), most_rows_of_a_run);
+    all = all && run.rows() <= most_rows_of_a_run;
   }
   const std::size_t step = rows / most_rows + 1;
   std::vector<domain::Run> runs = std::exchange(data.runs, {});

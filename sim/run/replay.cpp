@@ -37,8 +37,7 @@ class Replaying {
       take(i, without_load());
     } else if (course.begins && dataset_.rig.remembers()) {
       const double from_s = course.time_s.front() + run.measured->recorded.skip_s;
-      const auto& seen =
-          run.contraction_ratio.empty() ? run.measured->read("contraction") : run.contraction_ratio;
+      const auto& seen = run.readings.empty() ? run.measured->read("contraction") : run.values("contraction");
       take(i,
            follow_as_seen(dataset_.rig, run.load_kg, std::move(course), {seen, run.rest_length_m, from_s}));
     } else {
@@ -59,7 +58,8 @@ class Replaying {
   void take(std::size_t i, Recording recording) {
     const domain::Run& run = dataset_.runs[i];
     for (Sample& row : recording.samples) row.time_s = tidy_s(row.time_s);
-    recording.driven.force = !run.force_N.empty() || (run.measured && !run.measured->read("force").empty());
+    recording.driven.force =
+        run.find("force") != nullptr || (run.measured && !run.measured->read("force").empty());
     runs_[i].failure = recording.failure;
     if (recording.failure.empty()) runs_[i].gaps = gaps_of(run, dataset_.rig, recording);
     runs_[i].recording = std::move(recording);

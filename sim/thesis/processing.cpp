@@ -127,7 +127,7 @@ class Processor {
       wrong.push_back({.message = std::move(message), .kind = kind});
     };
     double off = 0.0, highest = 0.0;
-    for (const double ratio : run_.contraction_ratio) {
+    for (const double ratio : run_.judged().values) {
       const double counts = ratio / per_count_;
       counts_.push_back(std::round(counts));
       off += std::abs(counts - counts_.back());
@@ -148,7 +148,7 @@ class Processor {
            fmt::format("contraction ratios are no multiples of this rig's encoder count ({:.4e}): wrong rig? "
                        "Its encoder, wheel_radius and rest_length decide",
                        per_count_));
-    if (options_.pressure == PressureSource::gauge && !run_.muscle_pressure_Pa)
+    if (options_.pressure == PressureSource::gauge && run_.find("muscle_pressure") == nullptr)
       find("gauge", "no column muscle_pressure_bar, which pressure from the gauge needs");
   }
 
@@ -163,7 +163,7 @@ class Processor {
   void take_as_read() {
     constexpr double thesis_count = 4.363e-4;
     per_count_ = thesis_count;
-    for (std::size_t k = 0; k < counts_.size(); ++k) counts_[k] = run_.contraction_ratio[k] / per_count_;
+    for (std::size_t k = 0; k < counts_.size(); ++k) counts_[k] = run_.judged().values[k] / per_count_;
   }
 
   void take(const HalfPeriod& half, ProcessedRun& result) {
@@ -196,7 +196,7 @@ class Processor {
 
   double pressure_Pa(std::size_t k) const {
     if (options_.pressure == PressureSource::gauge)
-      return rig_.effects.true_Pa((*run_.muscle_pressure_Pa)[k]);
+      return rig_.effects.true_Pa(run_.values("muscle_pressure")[k]);
     const plant::Valve& v = rig_.valve;
     return v.zero_pressure_Pa + (v.span_pressure_Pa - v.zero_pressure_Pa) *
                                     (run_.current_mA[k] - v.zero_command) / (v.span_command - v.zero_command);

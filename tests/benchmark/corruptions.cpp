@@ -38,10 +38,10 @@ domain::Run& run(domain::Dataset& data, std::size_t number) {
 
 /// Readings that come some ticks late; early if negative.
 void late(domain::Run& run, int ticks) {
-  const Series was = run.contraction_ratio;
+  const Series was = run.judged().values;
   const auto last = static_cast<int>(was.size()) - 1;
   for (int k = 0; k <= last; ++k)
-    run.contraction_ratio[static_cast<std::size_t>(k)] =
+    run.judged().values[static_cast<std::size_t>(k)] =
         was[static_cast<std::size_t>(std::clamp(k - ticks, 0, last))];
 }
 
@@ -52,16 +52,16 @@ double counted(const domain::Dataset& data, double ratio) {
 
 /// A straight line added to the readings, from 0 to so much at the end.
 void drift(const domain::Dataset& data, domain::Run& run, double end_mm) {
-  const auto all = static_cast<double>(run.contraction_ratio.size());
-  for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
-    run.contraction_ratio[k] =
-        counted(data, run.contraction_ratio[k] + 1e-3 * end_mm / length_m * static_cast<double>(k) / all);
+  const auto all = static_cast<double>(run.rows());
+  for (std::size_t k = 0; k < run.rows(); ++k)
+    run.judged().values[k] =
+        counted(data, run.judged().values[k] + 1e-3 * end_mm / length_m * static_cast<double>(k) / all);
 }
 
 /// So many counts more from a row on.
 void slip(const domain::Dataset& data, domain::Run& run, std::size_t row, int counts) {
-  for (std::size_t k = row; k < run.contraction_ratio.size(); ++k)
-    run.contraction_ratio[k] += counts * run::contraction_per_count(data.rig);
+  for (std::size_t k = row; k < run.rows(); ++k)
+    run.judged().values[k] += counts * run::contraction_per_count(data.rig);
 }
 
 /// The run made again on the nominal rig with something wrong in it that the table does not tell.
@@ -70,10 +70,10 @@ void make_again(domain::Dataset& data, domain::Run& run, const Series& true_curr
   domain::Run moved = run;
   moved.current_mA = true_current_mA;
   const Loaded hanging{truth, load_kg};
-  const auto readings = predict(moved, {&hanging, 1}).front().judged;
+  const auto readings = predict(moved, {&hanging, 1}).front().judged();
   const double count = run::contraction_per_count(data.rig);
   for (std::size_t k = 0; k < readings.size(); ++k)
-    run.contraction_ratio[k] = count * std::floor(readings[k] / count);
+    run.judged().values[k] = count * std::floor(readings[k] / count);
 }
 
 void lose_rows(domain::Run& run, std::size_t row, std::size_t count) {
@@ -81,8 +81,8 @@ void lose_rows(domain::Run& run, std::size_t row, std::size_t count) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row);
     values.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
   };
-  cut(run.contraction_ratio);
-  run.current_mA.resize(run.contraction_ratio.size());
+  cut(run.judged().values);
+  run.current_mA.resize(run.rows());
 }
 
 /// The change, made to every run.
@@ -233,8 +233,8 @@ std::vector<Corruption> of_the_table() {
 /// Of every reading, from the one before.
 void filtered(domain::Run& run, double cut_off_Hz, double tick_s) {
   const double keeps = std::exp(-2.0 * std::numbers::pi * cut_off_Hz * tick_s);
-  double last = run.contraction_ratio.front();
-  for (double& ratio : run.contraction_ratio) ratio = last = std::lerp(ratio, last, keeps);
+  double last = run.judged().values.front();
+  for (double& ratio : run.judged().values) ratio = last = std::lerp(ratio, last, keeps);
 }
 
 /// What a bench has wrong in all runs or in half of them.

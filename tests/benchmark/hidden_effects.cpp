@@ -323,12 +323,14 @@ domain::Run read(const Hidden& hidden, const Waveform& current, double load_kg, 
   measured.id = fmt::format("r{:02}", hidden.data.runs.size() + 1);
   measured.load_kg = load_kg;
   const bool gauge = hidden.rig.sensors.of(plant::Sensed::muscle_pressure) != nullptr;
-  if (gauge) measured.muscle_pressure_Pa.emplace();
+  measured.read("contraction");
+  if (gauge) measured.read("muscle_pressure");
   for (const auto& sample : recording.samples) {
     measured.current_mA.push_back(sample.current_mA);
-    measured.contraction_ratio.push_back(static_cast<double>(sample.counts) *
-                                         run::contraction_per_count(hidden.rig));
-    if (gauge) measured.muscle_pressure_Pa->push_back(sample.shown[plant::Sensed::muscle_pressure]);
+    measured.judged().values.push_back(static_cast<double>(sample.counts) *
+                                       run::contraction_per_count(hidden.rig));
+    if (gauge)
+      measured.find("muscle_pressure")->values.push_back(sample.shown[plant::Sensed::muscle_pressure]);
   }
   return measured;
 }

@@ -73,7 +73,7 @@ TEST_F(Dataset, WritesMeasurementsAndApartTheTruth) {
   EXPECT_EQ(dataset.runs[7].id, "m2_up_r2");
   EXPECT_EQ(dataset.runs[7].load_kg, 23.406);
   EXPECT_EQ(dataset.runs[7].current_mA.size(), 100u);
-  EXPECT_TRUE(dataset.runs[0].muscle_pressure_Pa);
+  EXPECT_NE(dataset.runs[0].find("muscle_pressure"), nullptr);
   EXPECT_NE(dataset.rig.sensors.of(plant::Sensed::muscle_pressure),
             nullptr);  // rig.yaml, because it is not the shipped rig
   EXPECT_TRUE(exists("out/small/rig.yaml"));
@@ -113,7 +113,7 @@ TEST_F(Dataset, NamesTheShippedRigWhenItIsTheOne) {
   ASSERT_EQ(run("dataset small.yaml").status, 0);
   EXPECT_TRUE(holds(read_text(scratch / "out/small/dataset.yaml"), "rig: thesis\n"));
   EXPECT_FALSE(exists("out/small/rig.yaml"));
-  EXPECT_FALSE(input::read_dataset(scratch / "out/small").runs[0].muscle_pressure_Pa);
+  EXPECT_EQ(input::read_dataset(scratch / "out/small").runs[0].find("muscle_pressure"), nullptr);
 }
 
 TEST_F(Dataset, KeepsTheEffectsOfItsBase) {
@@ -179,7 +179,7 @@ TEST_F(Dataset, ThesisFilesFollowFromTheirFirstTwoColumns) {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       ASSERT_EQ(rows[k].size(), 5u);
       EXPECT_EQ(rows[k][0], each.current_mA[k]);
-      EXPECT_EQ(rows[k][1], each.contraction_ratio[k]);
+      EXPECT_EQ(rows[k][1], each.judged().values[k]);
       const double before = k > 0 ? rows[k - 1][1] : rows[k][1];
       const double speed_before = k > 0 ? rows[k - 1][2] : 0.0;
       EXPECT_NEAR(rows[k][2], (rows[k][1] - before) / 0.012, 1e-10);

@@ -30,7 +30,9 @@ inline domain::Dataset on_a_bench(const plant::Rig& truth, double noise_N) {
       measured.give("muscle_pressure").push_back(5e4 * (k + 1.0));
     }
     const Loaded held{truth, 0.0};
-    measured.take("force") = predict(run, {&held, 1}).front().judged;
+    run.read("force");
+    measured.take("force") = predict(run, {&held, 1}).front().judged();
+    run.readings.clear();
     for (double& force_N : measured.take("force")) force_N = std::max(0.0, force_N + noise(random));
   }
   return data::with_rows(std::move(data));

@@ -22,7 +22,7 @@ TEST(Bench, ForcesAreThoseOfTheCord) {
   const Loaded held{rig, 0.0};
   const auto readings = predict(data.runs[2], {&held, 1}).front();
   for (std::size_t k = 0; k < 9; ++k)  // no length moves: threads do not rub
-    EXPECT_NEAR(readings.judged[k], plant::Braid(rig.muscle).force_N(0.11, readings.pressure_Pa[k]), 1e-6);
+    EXPECT_NEAR(readings.judged()[k], plant::Braid(rig.muscle).force_N(0.11, readings.pressure_Pa[k]), 1e-6);
   const Experiment experiment(data, nothing_masked(data), 1, {0, 1, 2, 3, 4});
   EXPECT_LT(experiment.rmse(residuals_of(experiment, rig, {0, 1, 2, 3, 4}), {0, 1, 2, 3, 4}), 1e-6);
 }
@@ -33,7 +33,7 @@ TEST(Bench, TheZeroOfTheLengthShiftsWhatIsGiven) {
   const domain::Dataset data = on_a_bench({}, 0.0);
   const Loaded held{rig, 0.0};
   const auto readings = predict(data.runs[2], {&held, 1}).front();
-  EXPECT_NEAR(readings.judged[4], plant::Braid(rig.muscle).force_N(0.12, readings.pressure_Pa[4]), 1e-6);
+  EXPECT_NEAR(readings.judged()[4], plant::Braid(rig.muscle).force_N(0.12, readings.pressure_Pa[4]), 1e-6);
 }
 
 }  // namespace

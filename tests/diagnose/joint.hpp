@@ -58,10 +58,12 @@ inline domain::Dataset of_a_joint(const Rig& truth, bool commands = false, Joint
       }
     }
     const Loaded pair{truth};
-    measured.take("angle") = predict(run, {&pair, 1}, noise.method).front().judged;
+    run.read("angle");
+    measured.take("angle") = predict(run, {&pair, 1}, noise.method).front().judged();
+    run.readings.clear();
     for (double& angle_rad : measured.take("angle")) angle_rad += noise.angle_rad * normal(random);
     for (domain::MeasuredColumn& column : measured.columns)
-      if (column.is_pressure())
+      if (column.channel.is_pressure())
         for (double& pressure_Pa : column.values) pressure_Pa += noise.pressure_Pa * normal(random);
   }
   return data::with_rows(std::move(data));
@@ -72,7 +74,7 @@ inline domain::Dataset mirrored(domain::Dataset data) {
   for (domain::Run& run : data.runs) {
     for (domain::MeasuredColumn& column : run.measured->columns)
       if (column.channel.muscle > 0) column.channel.muscle = 3 - column.channel.muscle;
-    for (double& angle_rad : run.angle_rad) angle_rad = -angle_rad;
+    for (double& angle_rad : run.judged().values) angle_rad = -angle_rad;
   }
   return data;
 }

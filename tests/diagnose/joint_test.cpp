@@ -24,9 +24,9 @@ TEST(Joint, AnglesAreThoseOfAReplay) {
     const domain::Dataset data = of_a_joint(rig, commands, {.angle_rad = 0.0, .pressure_Pa = 0.0});
     const domain::Run& run = data.runs[1];
     const auto replayed = run::follow(rig, 0.0, run::course_of(run, rig));
-    ASSERT_EQ(replayed.samples.size(), run.angle_rad.size());
-    for (std::size_t k = 0; k < run.angle_rad.size(); k += 10)
-      EXPECT_NEAR(replayed.samples[k].angle_rad, run.angle_rad[k], 1e-4) << k;
+    ASSERT_EQ(replayed.samples.size(), run.rows());
+    for (std::size_t k = 0; k < run.rows(); k += 10)
+      EXPECT_NEAR(replayed.samples[k].angle_rad, run.judged().values[k], 1e-4) << k;
     EXPECT_GT(replayed.samples[40].angle_rad, 0.1);
   }
 }
@@ -125,13 +125,13 @@ TEST(Joint, GaugesOfBothMusclesAreCompared) {
   domain::Dataset data = of_a_joint(leaking, true);
   const Loaded pair{leaking};
   for (domain::Run& run : data.runs) {
-    Readings readings = predict(run, {&pair, 1}).front();
-    run.muscle_pressure_Pa = std::move(readings.pressure_Pa);
-    run.opposite_pressure_Pa = std::move(readings.opposite_pressure_Pa);
+    for (const std::size_t muscle : {1U, 2U}) run.read("muscle_pressure", {}, muscle);
+    const Readings readings = predict(run, {&pair, 1}).front();
+    for (const std::size_t muscle : {1U, 2U}) run.readings[muscle].values = readings.readings[muscle];
   }
   const Experiment experiment(data, nothing_masked(data), 2);
   const auto left = residuals_of(experiment, data.rig, {0});
-  const auto rows = static_cast<Eigen::Index>(data.runs[0].angle_rad.size());
+  const auto rows = static_cast<Eigen::Index>(data.runs[0].rows());
   ASSERT_EQ(left.size(), 3 * rows);
   EXPECT_LT(left.segment(rows, rows).norm(), 0.3 * left.tail(rows).norm());  // muscle 2 is the one that leaks
 }

@@ -45,7 +45,9 @@ domain::Dataset lifted(const Rig& truth, double load_kg = 1.0) {
                                          5.0 * std::cos((i == 0 ? 2.0 : 5.0) * measured.time_s.back()));
     }
     const Loaded rig{truth, load_kg};
-    measured.take("angle") = predict(run, {&rig, 1}, solver::Method::automatic).front().judged;
+    run.read("angle");
+    measured.take("angle") = predict(run, {&rig, 1}, solver::Method::automatic).front().judged();
+    run.readings.clear();
   }
   return data::with_rows(std::move(data));
 }
@@ -56,11 +58,11 @@ TEST(Lever, AnglesAreThoseOfAReplay) {
   EXPECT_EQ(data.judged(), domain::Judged::angle);
   for (const domain::Run& run : data.runs) {
     const auto replayed = run::follow(rig, run.load_kg, run::course_of(run, rig));
-    ASSERT_EQ(replayed.samples.size(), run.angle_rad.size());
+    ASSERT_EQ(replayed.samples.size(), run.rows());
     double largest = 0.0;
-    for (std::size_t k = 0; k < run.angle_rad.size(); k += 10) {
-      EXPECT_NEAR(replayed.samples[k].angle_rad, run.angle_rad[k], 1e-4) << k;
-      largest = std::max(largest, run.angle_rad[k]);
+    for (std::size_t k = 0; k < run.rows(); k += 10) {
+      EXPECT_NEAR(replayed.samples[k].angle_rad, run.judged().values[k], 1e-4) << k;
+      largest = std::max(largest, run.judged().values[k]);
     }
     EXPECT_GT(largest, 0.5);
   }
@@ -77,8 +79,8 @@ TEST(Lever, RigsBesideEachOtherKeepTheirAngles) {
   const auto together = predict(data.runs.back(), rigs);
   for (std::size_t i = 0; i < rigs.size(); ++i) {
     const auto alone = predict(data.runs.back(), {&rigs[i], 1});
-    for (std::size_t k = 0; k < alone.front().judged.size(); k += 20)
-      EXPECT_NEAR(together[i].judged[k], alone.front().judged[k], 2e-4) << i << ' ' << k;
+    for (std::size_t k = 0; k < alone.front().judged().size(); k += 20)
+      EXPECT_NEAR(together[i].judged()[k], alone.front().judged()[k], 2e-4) << i << ' ' << k;
   }
 }
 

@@ -36,15 +36,16 @@ inline domain::Dataset with_a_cell(const plant::Rig& truth, CellNoise noise = {}
       const double turn = 2.0 * std::numbers::pi * measured.time_s.back() / (i % 2 == 0 ? 1.2 : 0.7);
       measured.give("muscle_pressure").push_back(2.8e5 - (i % 2 == 0 ? 1.6e5 : 1e5) * std::cos(turn));
     }
-    // What is not given is not predicted: the column says that a cell is there.
-    run.force_N.assign(rows_with_a_cell, 0.0);
+    // What is not given is not predicted: the reading says that a cell is there.
+    run.read("contraction");
+    run.read("force");
     const Loaded hanging{truth, run.load_kg};
     auto readings = predict(run, {&hanging, 1}).front();
-    run.force_N.clear();
-    for (double& ratio : readings.judged) ratio += noise.ratio * normal(random);
-    for (double& force_N : readings.force_N) force_N += noise.force_N * normal(random);
-    measured.take("contraction") = std::move(readings.judged);
-    measured.take("force") = std::move(readings.force_N);
+    run.readings.clear();
+    for (double& ratio : readings.readings[0]) ratio += noise.ratio * normal(random);
+    for (double& force_N : readings.readings[1]) force_N += noise.force_N * normal(random);
+    measured.take("contraction") = std::move(readings.readings[0]);
+    measured.take("force") = std::move(readings.readings[1]);
   }
   return data;
 }

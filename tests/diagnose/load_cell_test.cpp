@@ -16,19 +16,30 @@
 namespace mckibben::diagnose {
 namespace {
 
-using domain::Beside;
-
 const Runs every_run{0, 1, 2, 3, 4, 5};
+
+/// Root mean square of what is left of the second reading of these runs, where it was read.
+double rms_beside(const Experiment& experiment, const Eigen::VectorXd& residuals, const Runs& runs) {
+  double squares = 0.0;
+  Eigen::Index count = 0;
+  for (const Experiment::Part& part : experiment.parts(runs)) {
+    const domain::Reading& read = experiment.data().runs[part.run].readings.at(1);
+    const auto left =
+        residuals.segment(part.begin + part.rows, part.rows) * experiment.floor().beside(read.channel);
+    squares += left.squaredNorm();
+    count += (left.array() != 0.0).count();
+  }
+  return std::sqrt(squares / static_cast<double>(count));
+}
 
 TEST(LoadCell, EachReadingWeighsByItsOwnFloor) {
   const domain::Dataset data = data::with_rows(with_a_cell({}));
   EXPECT_EQ(data.judged(), domain::Judged::contraction);
   const Experiment experiment(data, nothing_masked(data), 2, every_run);
-  EXPECT_NEAR(experiment.floor().force_N, 2.0, 0.3);
+  EXPECT_NEAR(experiment.floor().of_signal.at("force"), 2.0, 0.3);
   EXPECT_EQ(experiment.rows(0), 2 * rows_with_a_cell);
   const auto residuals = residuals_of(experiment, data.rig, every_run);
-  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 2.0, 0.2);
-  EXPECT_FALSE(experiment.rmse(Beside::muscle_pressure, residuals, every_run));
+  EXPECT_NEAR(rms_beside(experiment, residuals, every_run), 2.0, 0.2);
   EXPECT_NEAR(experiment.rmse(residuals, every_run), experiment.floor().judged, 1e-5);
   const double all = residuals.squaredNorm() / static_cast<double>(6 * rows_with_a_cell);
   EXPECT_GT(all, 1.4);  // one of each reading, or a little less
@@ -49,20 +60,21 @@ TEST(ValveGauge, WeighsByItsOwnFloor) {
     measured.time_s.push_back(0.012 * k);
     measured.give("command").push_back(12.0 + 4.0 * std::sin(0.02 * k));
   }
-  run.valve_pressure_Pa.emplace();  // says that a gauge is there
+  run.read("contraction");
+  run.read("valve_pressure");
   const Loaded hanging{data.rig, run.load_kg};
   auto readings = predict(run, {&hanging, 1}).front();
-  run.valve_pressure_Pa.reset();
-  for (double& read_Pa : readings.valve_pressure_Pa) read_Pa += noise_Pa * normal(random);
-  measured.take("contraction") = std::move(readings.judged);
-  measured.take("valve_pressure") = std::move(readings.valve_pressure_Pa);
+  run.readings.clear();
+  for (double& read_Pa : readings.readings[1]) read_Pa += noise_Pa * normal(random);
+  measured.take("contraction") = std::move(readings.readings[0]);
+  measured.take("valve_pressure") = std::move(readings.readings[1]);
   data = data::with_rows(std::move(data));
   const Experiment experiment(data, {std::vector<bool>(640, false)}, 1, {0});
-  EXPECT_NEAR(experiment.floor().valve_Pa, noise_Pa, 0.25 * noise_Pa);
-  EXPECT_EQ(experiment.floor().pressure_Pa, 0.0);
+  EXPECT_NEAR(experiment.floor().of_signal.at("valve_pressure"), noise_Pa, 0.25 * noise_Pa);
+  EXPECT_FALSE(experiment.floor().of_signal.contains("muscle_pressure"));
   EXPECT_EQ(experiment.rows(0), 1280u);
   const auto residuals = residuals_of(experiment, data.rig, {0});
-  EXPECT_NEAR(*experiment.rmse(Beside::valve_pressure, residuals, {0}), noise_Pa, 0.25 * noise_Pa);
+  EXPECT_NEAR(rms_beside(experiment, residuals, {0}), noise_Pa, 0.25 * noise_Pa);
 }
 
 /// How much more the cord carries on the way up than on the way down, on average, over the weight.
@@ -72,10 +84,10 @@ double more_on_the_way_up(double guide_friction) {
   const domain::Dataset data = data::with_rows(with_a_cell(rubbing, {0.0, 0.0}));
   const domain::Run& run = data.runs[0];
   double up_N = 0.0, down_N = 0.0, up = 0.0, down = 0.0;
-  for (std::size_t k = 1; k + 1 < run.force_N.size(); ++k) {
-    const double rise = run.contraction_ratio[k + 1] - run.contraction_ratio[k - 1];
+  for (std::size_t k = 1; k + 1 < run.rows(); ++k) {
+    const double rise = run.judged().values[k + 1] - run.judged().values[k - 1];
     if (std::abs(rise) < 1e-3) continue;
-    (rise > 0.0 ? up_N : down_N) += run.force_N[k];
+    (rise > 0.0 ? up_N : down_N) += run.values("force")[k];
     (rise > 0.0 ? up : down) += 1.0;
   }
   return (up_N / up - down_N / down) / (plant::gravity_m_per_s2 * run.load_kg);
@@ -95,7 +107,7 @@ TEST(LoadCell, AReadingThatIsMissingCostsNoOther) {
   const Experiment experiment(data, nothing_masked(data), 2, every_run);
   const auto residuals = residuals_of(experiment, data.rig, every_run);
   EXPECT_EQ((residuals.segment(rows_with_a_cell, rows_with_a_cell).array() != 0.0).count(), 16);
-  EXPECT_NEAR(*experiment.rmse(Beside::force, residuals, every_run), 2.0, 0.4);
+  EXPECT_NEAR(rms_beside(experiment, residuals, every_run), 2.0, 0.4);
 }
 
 TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
@@ -108,7 +120,7 @@ TEST(LoadCell, BesideCountsOfAnEncoderHasAFloorToo) {
   data = data::with_rows(std::move(data));
   const Experiment experiment(data, nothing_masked(data), 2, every_run);
   EXPECT_GT(experiment.floor().count, 0.0);
-  EXPECT_NEAR(experiment.floor().force_N, 2.0, 0.3);
+  EXPECT_NEAR(experiment.floor().of_signal.at("force"), 2.0, 0.3);
 }
 
 }  // namespace

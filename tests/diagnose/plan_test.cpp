@@ -40,7 +40,7 @@ TEST(Plan, ALeverLiftsWhatItsArmLetsItsMuscleLift) {
   rig.mechanics = plant::Lever{};
   rig.joint.lowest_rad = 0.0, rig.joint.highest_rad = 100.0 * plant::degree_rad;
   const domain::Dataset data = planted(rig, {12.0}, {three_kinds()[0]}, 1, rig);
-  ASSERT_FALSE(data.runs[0].angle_rad.empty());
+  ASSERT_FALSE(data.runs[0].judged().values.empty());
   plant::Rig rougher = data.rig;
   rougher.friction.scale = 1.2;
   std::mutex one_by_one;

@@ -56,7 +56,7 @@ inline domain::Dataset planted(const plant::Rig& truth, std::vector<double> load
 /// No reading of a data set is left out.
 inline std::vector<std::vector<bool>> nothing_masked(const domain::Dataset& data) {
   std::vector<std::vector<bool>> masked;
-  for (const auto& run : data.runs) masked.emplace_back(run.judged().size(), false);
+  for (const auto& run : data.runs) masked.emplace_back(run.rows(), false);
   return masked;
 }
 

@@ -26,7 +26,7 @@ TEST(Start, IsASuspectWhereRunsBeginInMotion) {
   EXPECT_EQ(sentence_of(look(data), gap, domain::Start::settled), "");
   constexpr std::ptrdiff_t lost = 40;  // the recorder was switched on late, while the sine was rising
   auto& late = data.runs[2];
-  late.contraction_ratio.erase(late.contraction_ratio.begin(), late.contraction_ratio.begin() + lost);
+  late.judged().values.erase(late.judged().values.begin(), late.judged().values.begin() + lost);
   late.current_mA.erase(late.current_mA.begin(), late.current_mA.begin() + lost);
   const Start start = look(data);
   EXPECT_EQ(start.unsettled, std::vector<std::string>{"r03"});

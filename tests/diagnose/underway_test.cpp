@@ -39,7 +39,8 @@ domain::Dataset begun_on_its_way(plant::Rig& creeping) {
   for (std::size_t k = 15; k < 150; ++k) measured.rows.push_back(k);
   const Loaded hanging{creeping, run.load_kg};
   const double memory = 0.12;
-  run.contraction_ratio = predict(run, {&hanging, 1}, solver::Method::automatic, {&memory, 1}).front().judged;
+  run.read("contraction");
+  run.judged().values = predict(run, {&hanging, 1}, solver::Method::automatic, {&memory, 1}).front().judged();
   return data;
 }
 
@@ -50,7 +51,7 @@ double mean_square(const Eigen::VectorXd& residuals) {
 TEST(Underway, WhatAnEffectRemembersIsFittedAndNotCharged) {
   plant::Rig creeping;
   const domain::Dataset data = begun_on_its_way(creeping);
-  const Experiment experiment(data, {std::vector<bool>(data.runs[0].contraction_ratio.size())}, 1);
+  const Experiment experiment(data, {std::vector<bool>(data.runs[0].rows())}, 1);
   EXPECT_LT(mean_square(residuals_of(experiment, creeping, {0})), 1.0);  // within the floor
   const Loaded hanging{creeping, 12.0};
   EXPECT_GT(mean_square(experiment.residuals(predict(data.runs[0], {&hanging, 1}).front(), 0)), 100.0);
@@ -90,11 +91,12 @@ TEST(Underway, WithoutAGaugePressuresComeFromHowCommandsGoOn) {
                     first.contraction_speed_per_s,
                     (ratio(from + 1) - 2.0 * ratio(from) + ratio(from - 1)) / 1e-4,
                     {}};
+  run.read("contraction");
   for (std::size_t k = from; k < to; ++k) {
     measured.rows.push_back(measured.time_s.size());
     measured.time_s.push_back(course.time_s[k]);
     measured.give("command").push_back(course.drives[k].current_mA);
-    run.contraction_ratio.push_back(ratio(k));
+    run.judged().values.push_back(ratio(k));
   }
   const auto replayed = run::replay(data, 1, [](const auto&, auto, auto) {});
   EXPECT_LT(replayed.front().gaps.front().largest, 4e-4);  // 2.5e-3 by the first command alone
@@ -110,7 +112,7 @@ TEST(Underway, AReplayReadsWhatADiagnosisReads) {
   rig.effects.get<plant::BladderCreep>() = {};
   data.rig = rig;
   const Loaded hanging{rig, data.runs[0].load_kg};
-  data.runs[0].contraction_ratio = predict(data.runs[0], {&hanging, 1}).front().judged;
+  data.runs[0].judged().values = predict(data.runs[0], {&hanging, 1}).front().judged();
   EXPECT_LT(run::replay(data, 1, [](const auto&, auto, auto) {}).front().gaps.front().rmse, 1e-5);
 }
 

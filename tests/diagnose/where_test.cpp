@@ -69,7 +69,7 @@ TEST(Where, NothingStandsOutWhereNothingIsMissing) {
 TEST(Where, WhatIsCommonToAllCellsIsNoMatterOfTheFactor) {
   auto data = planted({}, {16.138}, three_kinds(), 3);
   for (domain::Run& run : data.runs)
-    for (double& ratio : run.contraction_ratio) ratio += 10.0 * run::contraction_per_count(data.rig);
+    for (double& ratio : run.judged().values) ratio += 10.0 * run::contraction_per_count(data.rig);
   const auto cells = Mapped{std::move(data)}();
   EXPECT_EQ(significant(cells), 1u);
   EXPECT_TRUE(find(cells, "load", "16.138 kg").significant);  // one cell: its mean itself is tested

@@ -184,7 +184,7 @@ TEST(HandedOver, ARigThatMeetsTheDataWithTheLoadsAsTheyAreReported) {
     for (domain::Run& run : data.runs)
       if (run.id == fault.runs.front()) run.load_kg = fault.loads_kg.front();
   const std::vector<std::vector<bool>> masked(data.runs.size(),
-                                              std::vector<bool>(data.runs.front().judged().size(), false));
+                                              std::vector<bool>(data.runs.front().rows(), false));
   const diagnose::Experiment mended(data, masked, 2);
   for (std::size_t run = 0; run < data.runs.size(); ++run) {
     const Eigen::VectorXd off =

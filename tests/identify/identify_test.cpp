@@ -77,7 +77,7 @@ TEST(Dictionary, NumbersGoAsFarAsAFileIsReadWithTheData) {
   domain::Dataset data;
   for (const double load_kg : {3.0, 0.1}) {
     data.runs.emplace_back().load_kg = load_kg;
-    data.runs.back().contraction_ratio = {0.0, 0.1};
+    data.runs.back().read("contraction", {0.0, 0.1});
   }
   data.rig.spreads = {{"joint.load_offset", 0.5}, {"muscle.cord.stiffness", 1e4}};
   data.rig.muscle.cord.stiffness_N_per_m = 2e4;
@@ -88,7 +88,7 @@ TEST(Dictionary, NumbersGoAsFarAsAFileIsReadWithTheData) {
   EXPECT_EQ(free_of(data, "muscle.rest_radius").lowest, 5e-4);
 
   data.rig.mechanics = plant::Lever{};
-  for (domain::Run& run : data.runs) run.angle_rad = {0.0, 1.0}, run.contraction_ratio.clear();
+  for (domain::Run& run : data.runs) run.readings.clear(), run.read("angle", {0.0, 1.0});
   EXPECT_NEAR(free_of(data, "joint.load_offset").lowest, -0.1, 1e-9);
   data.rig.spreads = {{"mechanics.inertia", 0.01}};
   EXPECT_NEAR(free_of(data, "mechanics.inertia").lowest, 1.0 * 0.15 * 0.15, 1e-9);

@@ -27,12 +27,13 @@ struct Made {
     for (const std::size_t rows : {150, 40}) {
       domain::Run& run = data.runs.emplace_back();
       run.id = "r";
+      run.read("contraction");
       run.load_kg = 11.0 + static_cast<double>(rows);
       for (std::size_t k = 0; k < rows; ++k) {
         const double ratio =
             0.1 + 0.02 * std::sin(0.1 * static_cast<double>(k)) + 0.1 * count * normal(random);
         run.current_mA.push_back(10.0);
-        run.contraction_ratio.push_back(count * std::floor(ratio / count));
+        run.judged().values.push_back(count * std::floor(ratio / count));
       }
       masked.emplace_back(rows, false);
     }
@@ -146,8 +147,8 @@ TEST(Rows, KnowTheStepInWhichReadingsWereWritten) {
   Made made;
   const double count = Rows(made.data, made.masked, {0, 1}).count;
   for (domain::Run& run : made.data.runs)
-    for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
-      run.contraction_ratio[k] =
+    for (std::size_t k = 0; k < run.rows(); ++k)
+      run.judged().values[k] =
           3e-3 * std::floor((0.1 + 0.05 * std::sin(0.2 * static_cast<double>(k))) / 3e-3);
   const Rows coarse(made.data, made.masked, {0, 1});
   EXPECT_LT(count, 1e-3);

@@ -22,10 +22,10 @@ namespace {
 TEST(Usable, ForcesOfABenchInAnotherUnitAreRefused) {
   domain::Dataset data = diagnose::on_a_bench({}, 0.0);
   for (domain::Run& run : data.runs)
-    for (double& force_N : run.force_N) force_N *= 1e-3;
+    for (double& force_N : run.judged().values) force_N *= 1e-3;
   EXPECT_THROW(usable(data, 1), data::UnfitData);
   for (domain::Run& run : data.runs)
-    for (double& force_N : run.force_N) force_N *= -1e3;
+    for (double& force_N : run.judged().values) force_N *= -1e3;
   EXPECT_THROW(usable(data, 1), data::UnfitData);
 }
 
@@ -41,7 +41,7 @@ TEST(Usable, RowsAtTheEndOfTheRangeDoNotCount) {
   domain::Dataset data = diagnose::planted(rig, {11.138, 16.138}, currents, 5, rig);
   const Usable found = usable(data, 2);
   std::ptrdiff_t ended = 0;
-  for (const double ratio : data.runs[0].contraction_ratio)
+  for (const double ratio : data.runs[0].judged().values)
     ended += ratio * rig.muscle.rest_length_m > 0.0299 ? 1 : 0;
   ASSERT_GT(ended, 10);
   EXPECT_GE(std::ranges::count(found.masked[0], true), ended);
@@ -83,7 +83,7 @@ TEST(Usable, AnglesAndPressuresThatAreNotWhatTheirColumnsSayAreRefusedWithTheLin
   domain::Dataset data = diagnose::of_a_joint(plant::thesis_pair());
   const auto times = [](double factor) {
     return [factor](domain::Run& run) {
-      for (double& angle_rad : run.angle_rad) angle_rad *= factor;
+      for (double& angle_rad : run.judged().values) angle_rad *= factor;
     };
   };
   EXPECT_EQ(refused(data, times(1.0)), "");

@@ -168,10 +168,10 @@ TEST_F(DatasetFolder, RunsWithAndWithoutGauge) {
     EXPECT_EQ(dataset.rig.dac.largest_command, 25.0);
     ASSERT_EQ(dataset.runs.size(), 2u);
     EXPECT_EQ(dataset.runs[0].current_mA, (std::vector<double>{4.0, 24.0}));
-    EXPECT_EQ(dataset.runs[0].contraction_ratio, (std::vector<double>{0.001, 0.002}));
-    EXPECT_FALSE(dataset.runs[0].muscle_pressure_Pa);
+    EXPECT_EQ(dataset.runs[0].judged().values, (std::vector<double>{0.001, 0.002}));
+    EXPECT_EQ(dataset.runs[0].find("muscle_pressure"), nullptr);
     EXPECT_EQ(dataset.runs[1].load_kg, 5.0);
-    EXPECT_EQ(dataset.runs[1].muscle_pressure_Pa.value(), (std::vector<double>{50000.0}));
+    EXPECT_EQ(dataset.runs[1].find("muscle_pressure")->values, (std::vector<double>{50000.0}));
   }
 }
 

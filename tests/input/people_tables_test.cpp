@@ -102,8 +102,8 @@ TEST_P(PeopleTables, ReadToTheSameNumbers) {
                                   GetParam().columns + "\nruns: [{id: r, file: r.csv, load: 5 kg}]\n");
   const Dataset data = read_dataset(place);
   EXPECT_EQ(data.runs[0].current_mA, (std::vector<double>{4.0, 4.5}));
-  ASSERT_EQ(data.runs[0].contraction_ratio.size(), 2u);
-  EXPECT_NEAR(data.runs[0].contraction_ratio[1], 0.01, 1e-15);
+  ASSERT_EQ(data.runs[0].rows(), 2u);
+  EXPECT_NEAR(data.runs[0].judged().values[1], 0.01, 1e-15);
 }
 INSTANTIATE_TEST_SUITE_P(Each, PeopleTables, ::testing::ValuesIn(tables),
                          [](const auto& each) { return std::string(each.param.name); });

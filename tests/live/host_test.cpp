@@ -113,13 +113,13 @@ TEST_F(LiveHost, WhatIsRecordedFromRestReplaysToTheCount) {
   EXPECT_EQ(data.runs[0].load_kg, 16.138);
   EXPECT_EQ(data.recorded.start, domain::Start::settled);
   EXPECT_GE(data.runs[0].current_mA.size(), 100u);
-  EXPECT_TRUE(data.runs[0].muscle_pressure_Pa.has_value());
+  EXPECT_TRUE(data.runs[0].find("muscle_pressure") != nullptr);
   const auto replayed = run::replay(data, 1, [](const std::string&, std::size_t, std::size_t) {});
   const double per_count = plant::count_height_m(rig) / rig.muscle.rest_length_m;
   const auto& samples = replayed.at(0).recording.samples;
   ASSERT_EQ(samples.size(), data.runs[0].current_mA.size());
   for (std::size_t k = 0; k < samples.size(); ++k)
-    EXPECT_NEAR(static_cast<double>(samples[k].counts) * per_count, data.runs[0].contraction_ratio[k], 1e-9)
+    EXPECT_NEAR(static_cast<double>(samples[k].counts) * per_count, data.runs[0].judged().values[k], 1e-9)
         << k;
 }
 

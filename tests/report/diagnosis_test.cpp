@@ -23,7 +23,7 @@ domain::Dataset measured() {
   domain::Dataset data = output::measured();
   const auto found = diagnosed();
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    data.runs[i].contraction_ratio = found.runs[i].measured;
+    data.runs[i].read("contraction", found.runs[i].measured);
     data.runs[i].current_mA.assign(found.runs[i].measured.size(), 12.0);
   }
   return data;

@@ -22,7 +22,7 @@ using output::diagnosed;
 domain::Dataset measured_as(const diagnose::Diagnosis& found) {
   domain::Dataset data = output::measured();
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    data.runs[i].contraction_ratio = found.runs[i].measured;
+    data.runs[i].read("contraction", found.runs[i].measured);
     data.runs[i].current_mA.assign(found.runs[i].measured.size(), 15.0);
   }
   return data;

@@ -249,8 +249,8 @@ std::string replayed(std::size_t runs, bool by_stamps = false) {
       stamps.give("command") = {5.0, 5.0};
       stamps.take("muscle_pressure") = {1e5, 1e5};
     } else {
-      measured.contraction_ratio = measured.current_mA = {0.1, 0.1};
-      measured.muscle_pressure_Pa = {1e5, 1e5};
+      measured.read("contraction", measured.current_mA = {0.1, 0.1});
+      measured.read("muscle_pressure", {1e5, 1e5});
     }
     data.runs.push_back(measured);
     run::ReplayedRun run{.id = measured.id, .load_kg = 5.0};

@@ -34,7 +34,7 @@ domain::Campaign small_campaign() {
 }
 
 std::vector<double> ratios(const domain::Campaign& campaign, const CampaignJob& job) {
-  return measured(campaign, run_job(campaign, job)).contraction_ratio;
+  return measured(campaign, run_job(campaign, job)).judged().values;
 }
 
 TEST(Campaign, EveryRunHasAnIdAndAStreamOfItsOwn) {
@@ -83,9 +83,9 @@ TEST(Campaign, MeasuredIsWhatTheInstrumentsShow) {
   const auto table = measured(campaign, run);
   ASSERT_EQ(table.current_mA.size(), 50u);
   const auto& sample = run.recording.samples[49];
-  EXPECT_EQ(table.contraction_ratio[49],
+  EXPECT_EQ(table.judged().values[49],
             static_cast<double>(sample.counts) * contraction_per_count(campaign.rig));
-  EXPECT_EQ(table.muscle_pressure_Pa.value()[49], sample.shown[plant::Sensed::muscle_pressure]);
+  EXPECT_EQ(table.find("muscle_pressure")->values[49], sample.shown[plant::Sensed::muscle_pressure]);
   EXPECT_NE(sample.shown[plant::Sensed::muscle_pressure], sample.state.side.muscle_pressure_Pa);
 }
 
@@ -161,7 +161,7 @@ TEST(Campaign, RunsDoNotDependOnThreads) {
   for (auto [threads, found] : {std::pair{1u, &one}, std::pair{4u, &four}})
     run_jobs(campaign, jobs, threads, [&](const CampaignRun& run) {
       const std::scoped_lock lock(mutex);
-      (*found)[run.job.id] = measured(campaign, run).contraction_ratio;
+      (*found)[run.job.id] = measured(campaign, run).judged().values;
     });
   EXPECT_EQ(one.size(), 8u);
   EXPECT_EQ(one, four);

@@ -15,7 +15,7 @@ TEST(Gauge, AFactorIsToldOnlyIfAllRunsAgreeOnIt) {
     auto data = sound();
     data.columns["muscle_pressure"] = {"p_bar", "bar"};
     for (domain::Run& run : data.runs)
-      for (double& pressure_Pa : *run.muscle_pressure_Pa)
+      for (double& pressure_Pa : run.find("muscle_pressure")->values)
         pressure_Pa *= &run == &data.runs.front() ? first : others;
     std::string all;
     for (const std::string& one : said(data)) all += one + "\n";

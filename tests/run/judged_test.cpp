@@ -57,17 +57,17 @@ TEST(Judged, RowsSayWhatReadingsSayTogether) {
   const domain::Rows& rows = *data.rows_of_stamps;
   EXPECT_EQ(rows.row_s, 0.012);
   EXPECT_EQ(rows.stamps, 2000u);
-  ASSERT_EQ(run.contraction_ratio.size(), run.time_s.size());
+  ASSERT_EQ(run.rows(), run.time_s.size());
   ASSERT_EQ(run.current_mA.size(), run.time_s.size());
   EXPECT_NEAR(static_cast<double>(rows.rows), 1.7 / 0.012, 2.0);
   EXPECT_GE(run.time_s.front(), 0.3);
   EXPECT_NEAR(rows.noise, noise_ratio * std::sqrt(9.0 / 4.0 / 12.0), 0.2 * rows.noise);
-  EXPECT_GE(std::count(run.missing.begin(), run.missing.end(), true), 2);
-  EXPECT_LE(std::count(run.missing.begin(), run.missing.end(), true), 4);
+  EXPECT_GE(std::count(run.judged().missing.begin(), run.judged().missing.end(), true), 2);
+  EXPECT_LE(std::count(run.judged().missing.begin(), run.judged().missing.end(), true), 4);
   for (std::size_t k = 0; k < run.time_s.size(); ++k) {
-    ASSERT_TRUE(std::isfinite(run.contraction_ratio[k]));
-    if (run.missing[k]) continue;
-    EXPECT_NEAR(run.contraction_ratio[k], truth(run.measured->time_s.front() + run.time_s[k]),
+    ASSERT_TRUE(std::isfinite(run.judged().values[k]));
+    if (run.judged().missing[k]) continue;
+    EXPECT_NEAR(run.judged().values[k], truth(run.measured->time_s.front() + run.time_s[k]),
                 5.0 * rows.noise);
   }
 }
@@ -134,8 +134,8 @@ TEST(Judged, ACommandsOwnStampsAreNoRows) {
   data = with_rows(std::move(data));
   EXPECT_NEAR(data.row_s(), 0.012, 1e-3);
   EXPECT_EQ(data.rows_of_stamps->stamps, 2 * readings);
-  EXPECT_EQ(data.runs[0].contraction_ratio.size(), readings);
-  EXPECT_EQ(std::ranges::count(data.runs[0].missing, true), 0);
+  EXPECT_EQ(data.runs[0].rows(), readings);
+  EXPECT_EQ(std::ranges::count(data.runs[0].judged().missing, true), 0);
   EXPECT_EQ(data.runs[0].measured->time_s, merged.time_s) << "commands act from their stamps on";
 }
 
@@ -150,9 +150,9 @@ TEST(Judged, AGaugeOnTheValveHasANoiseOfItsOwn) {
   }
   data = with_rows(std::move(data));
   const domain::Rows& rows = *data.rows_of_stamps;
-  EXPECT_NEAR(rows.valve_noise_Pa / rows.pressure_noise_Pa, 10.0, 1.5);
-  EXPECT_EQ(data.runs[0].valve_pressure_Pa->size(), rows.rows);
-  EXPECT_FALSE(data.runs[0].opposite_valve_pressure_Pa);
+  EXPECT_NEAR(rows.noise_beside.at("valve_pressure") / rows.noise_beside.at("muscle_pressure"), 10.0, 1.5);
+  EXPECT_EQ(data.runs[0].values("valve_pressure").size(), rows.rows);
+  EXPECT_EQ(data.runs[0].find("valve_pressure", 2), nullptr);
 }
 
 // What drives a run, whatever it is, is there after rows were made of its stamps.
@@ -177,15 +177,15 @@ TEST(Judged, AGivenForceAndValvePressureAreFollowed) {
 TEST(Judged, SlowReadingsStayAsTheyAre) {
   const domain::Dataset raw = recorded(50.0, true), data = with_rows(raw);
   EXPECT_FALSE(data.rows_of_stamps->smoothed);
-  EXPECT_EQ(data.runs[0].contraction_ratio, raw.runs[0].measured->read("contraction"));
+  EXPECT_EQ(data.runs[0].judged().values, raw.runs[0].measured->read("contraction"));
   EXPECT_EQ(data.runs[0].measured->time_s, raw.runs[0].measured->time_s);
   EXPECT_NEAR(data.row_s(), 0.02, 0.002);
-  EXPECT_EQ(with_rows(data).runs[0].contraction_ratio, data.runs[0].contraction_ratio);  // once is enough
+  EXPECT_EQ(with_rows(data).runs[0].judged().values, data.runs[0].judged().values);  // once is enough
 }
 
 TEST(Judged, ARowEachTickIsWhatItIs) {
   domain::Dataset data;
-  data.runs.emplace_back().contraction_ratio = {0.1, 0.2};
+  data.runs.emplace_back().read("contraction", {0.1, 0.2});
   EXPECT_FALSE(with_rows(data).rows_of_stamps);
   EXPECT_EQ(data.row_s(), data.rig.tick_s);
 }

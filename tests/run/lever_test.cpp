@@ -171,9 +171,9 @@ TEST(Lever, ItsDataSetHoldsItsAngle) {
   const CampaignRun run = run_job(campaign, jobs_of(campaign).front());
   ASSERT_EQ(run.recording.failure, "");
   const domain::Run table = measured(campaign, run);
-  EXPECT_TRUE(table.contraction_ratio.empty());
-  ASSERT_EQ(table.angle_rad.size(), run.recording.samples.size());
-  EXPECT_EQ(table.angle_rad.back(), run.recording.samples.back().read_angle_rad);
+  EXPECT_EQ(table.find("contraction"), nullptr);
+  ASSERT_EQ(table.rows(), run.recording.samples.size());
+  EXPECT_EQ(table.judged().values.back(), run.recording.samples.back().read_angle_rad);
   EXPECT_GT(ended(campaign, run).angle_rad.high, 20.0 * one_deg);
 }
 

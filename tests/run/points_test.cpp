@@ -116,9 +116,9 @@ TEST(Points, ScatterIsWhatNeighboursDoNotExplain) {
   EXPECT_EQ(rows.slack, 4u * 8u);
   EXPECT_EQ(rows.rows, 160u);
   const domain::Run& run = data.runs[1];
-  EXPECT_EQ(std::count(run.missing.begin(), run.missing.end(), true), 8);
-  EXPECT_EQ(run.judged().size(), 40u);
-  EXPECT_TRUE(run.contraction_ratio.empty());
+  EXPECT_EQ(std::count(run.judged().missing.begin(), run.judged().missing.end(), true), 8);
+  EXPECT_EQ(run.rows(), 40u);
+  EXPECT_EQ(run.find("contraction"), nullptr);
   EXPECT_EQ(run.measured->given("contraction"), std::vector<double>(40, 0.05));
 }
 

@@ -27,7 +27,7 @@ plant::Rig switched(plant::Rig rig) {
 domain::Dataset scaled(double factor, std::vector<std::size_t> runs = {0, 1, 2, 3, 4, 5}) {
   auto data = sound();
   for (const std::size_t run : runs)
-    for (double& ratio : data.runs[run].contraction_ratio) ratio *= factor;
+    for (double& ratio : data.runs[run].judged().values) ratio *= factor;
   return data;
 }
 
@@ -55,7 +55,7 @@ TEST(Sanity, WhereTheGaugeFollowsTheDutyTheContractionHasTheOtherSign) {
   domain::Dataset data = measured_on(rig, {11.138, 16.138}, rig);
   EXPECT_EQ(said(data), std::vector<std::string>{});
   for (domain::Run& run : data.runs)
-    for (double& ratio : run.contraction_ratio) ratio *= -1.0;
+    for (double& ratio : run.judged().values) ratio *= -1.0;
   const auto all = said(data);
   EXPECT_TRUE(std::ranges::any_of(all, [](const std::string& one) {
     return one.find("contraction: where valves fill, pressure rises and the muscle gives way") !=
@@ -118,7 +118,7 @@ TEST(Sanity, AGaugeInAnotherUnitIsToldAlsoWhereTheRigsPressureIsOff) {
   auto data = sound();
   data.columns["muscle_pressure"] = {"p", "psi"};
   for (domain::Run& run : data.runs)
-    for (double& pressure_Pa : *run.muscle_pressure_Pa) pressure_Pa *= 0.052;
+    for (double& pressure_Pa : run.find("muscle_pressure")->values) pressure_Pa *= 0.052;
   const auto list = said(data);
   ASSERT_FALSE(list.empty());
   EXPECT_TRUE(holds(list.front(),
@@ -129,7 +129,8 @@ TEST(Sanity, AnAtmosphereIsToldByWhatTheGaugeReadsAtRest) {
   const auto told = [](double gain, double zero_Pa) {
     auto data = sound();
     for (domain::Run& run : data.runs)
-      for (double& pressure_Pa : *run.muscle_pressure_Pa) pressure_Pa = gain * pressure_Pa + zero_Pa;
+      for (double& pressure_Pa : run.find("muscle_pressure")->values)
+        pressure_Pa = gain * pressure_Pa + zero_Pa;
     return says(data);
   };
   EXPECT_TRUE(holds(told(1.0, -101325.0), "error", "one atmosphere too low; ", "zero: -1.01325}}"));
@@ -141,7 +142,7 @@ TEST(Sanity, AZeroOfAGaugeThatWasForgottenIsAskedFor) {
   auto data = sound();
   const auto read_more = [&](double by_Pa, const std::vector<std::size_t>& runs) {
     for (const std::size_t run : runs)
-      for (double& pressure_Pa : *data.runs[run].muscle_pressure_Pa) pressure_Pa += by_Pa;
+      for (double& pressure_Pa : data.runs[run].find("muscle_pressure")->values) pressure_Pa += by_Pa;
   };
   data.columns["muscle_pressure"] = {.column = "p", .unit = "bar", .factor = 2.5};
   read_more(0.1e5, {0, 1, 2, 3, 4, 5});
@@ -160,9 +161,9 @@ TEST(Sanity, ARunThatBeginsOnItsWayIsToldWithItsSpeed) {
   auto data = sound();
   domain::Run& run = data.runs[2];
   std::ptrdiff_t rows = 0;  // where it is quickest
-  const auto rise = [at = run.contraction_ratio.begin()](std::ptrdiff_t k) { return at[k + 9] - at[k]; };
+  const auto rise = [at = run.judged().values.begin()](std::ptrdiff_t k) { return at[k + 9] - at[k]; };
   for (std::ptrdiff_t k = 0; k < 200; ++k) rows = rise(k) > rise(rows) ? k : rows;
-  for (auto* column : {&run.contraction_ratio, &run.current_mA, &*run.muscle_pressure_Pa})
+  for (auto* column : {&run.judged().values, &run.current_mA, &run.find("muscle_pressure")->values})
     column->erase(column->begin(), column->begin() + rows);
   EXPECT_TRUE(holds(says(data), "run r03: begins on its way, r03 at ",
                     " mm/s: ", "write start: moving at the top of dataset.yaml"));
@@ -216,7 +217,7 @@ TEST(Sanity, AZeroIsSeenWhereTheLoadIsTooHeavyToBeLifted) {
   read_from(data, {"laser", "mm", 263.7, -1.0});
   EXPECT_EQ(said(data), std::vector<std::string>{});
   for (domain::Run& run : data.runs)
-    for (double& ratio : run.contraction_ratio) ratio += 0.06;
+    for (double& ratio : run.judged().values) ratio += 0.06;
   EXPECT_TRUE(holds(says(data), "all runs: contraction begins 0.0596 more than", "zero: 245.8, factor: -1}"));
 }
 
@@ -226,7 +227,7 @@ TEST(Sanity, ContractionsBeyondBraidAndModelAreAskedAbout) {
 
 TEST(Sanity, SingleReadingsAreLookedAtWithoutAFit) {
   auto data = sound();
-  data.runs[1].contraction_ratio[200] += 0.05;
+  data.runs[1].judged().values[200] += 0.05;
   EXPECT_EQ(says(data),
             "measured/dataset.yaml: warning: run r02: 1 outlier in contraction_ratio, at 2.400 s");
   data.runs.resize(2);
@@ -238,10 +239,10 @@ TEST(Sanity, SingleReadingsAreLookedAtWithoutAFit) {
 TEST(Sanity, ExchangedColumnsAreSaid) {
   auto data = sound();
   for (domain::Run& run : data.runs) {
-    auto bar = *run.muscle_pressure_Pa;
+    auto bar = run.find("muscle_pressure")->values;
     for (std::size_t k = 0; k < bar.size(); ++k) {
       bar[k] /= 1e5;
-      (*run.muscle_pressure_Pa)[k] = run.current_mA[k] * 1e5;
+      (run.find("muscle_pressure")->values)[k] = run.current_mA[k] * 1e5;
     }
     run.current_mA = bar;
   }
@@ -357,7 +358,7 @@ TEST(Sanity, ARunWithoutALoadThatCarriesOneIsSaid) {
 
 TEST(Sanity, WhatIsFarOffIsBlamedOnItsRuns) {
   auto data = labelled(sound(), {0, 2, 4}, {11.138, 16.138, 23.406});
-  for (double& ratio : data.runs[1].contraction_ratio) ratio = 0.15 - ratio;
+  for (double& ratio : data.runs[1].judged().values) ratio = 0.15 - ratio;
   for (const std::string& text : said(data))
     if (text.find("rmse is up to") != std::string::npos) {
       EXPECT_TRUE(text.find("run r03: contraction") != std::string::npos) << text;

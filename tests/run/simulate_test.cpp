@@ -273,13 +273,15 @@ TEST(Simulate, AReplayComparesASlowGaugeWithWhatItWouldShow) {
   fast.speed_mA_per_s = 10.0;
   const Recording recording = ride(s, fast);
   domain::Run run;
-  run.muscle_pressure_Pa.emplace();
+  std::vector<double> ratios, shown_Pa;
   double most_Pa = 0.0;
   for (const Sample& row : recording.samples) {
-    run.contraction_ratio.push_back(row.read_ratio);
-    run.muscle_pressure_Pa->push_back(row.shown[plant::Sensed::muscle_pressure]);
-    most_Pa = std::max(most_Pa, std::abs(run.muscle_pressure_Pa->back() - row.state.side.muscle_pressure_Pa));
+    ratios.push_back(row.read_ratio);
+    shown_Pa.push_back(row.shown[plant::Sensed::muscle_pressure]);
+    most_Pa = std::max(most_Pa, std::abs(shown_Pa.back() - row.state.side.muscle_pressure_Pa));
   }
+  run.read("contraction", ratios);
+  run.read("muscle_pressure", shown_Pa);
   EXPECT_GT(most_Pa, 1e3);
   const auto gaps = gaps_of(run, s.rig, recording);
   ASSERT_EQ(gaps.size(), 2u);

@@ -168,11 +168,11 @@ TEST(EvenRows, AreMadeOfTicksThatBeganLate) {
   make_even(data, spacing.row_s);
   EXPECT_TRUE(spacing_of(data).is_even());
   const domain::Run& run = data.runs.front();
-  ASSERT_GT(run.contraction_ratio.size(), 195U);
-  ASSERT_EQ(run.current_mA.size(), run.contraction_ratio.size());
+  ASSERT_GT(run.rows(), 195U);
+  ASSERT_EQ(run.current_mA.size(), run.rows());
   const double begin_s = run.measured->time_s.front();
   for (std::size_t k = 0; k < run.time_s.size(); ++k) {
-    EXPECT_NEAR(run.contraction_ratio[k], 0.1 + 0.01 * (begin_s + run.time_s[k]), 1e-9);
+    EXPECT_NEAR(run.judged().values[k], 0.1 + 0.01 * (begin_s + run.time_s[k]), 1e-9);
     EXPECT_NEAR(run.current_mA[k], 4.0 + 0.01 * static_cast<double>(k), 0.012) << "a tick at most";
   }
 }

@@ -214,7 +214,7 @@ TEST(BadData, TooFewSpeedsForTheOrdersSayHowMany) {
 
 TEST(BadData, NoMotionIsSaid) {
   domain::Dataset dataset = small_campaign({11.138}, {3.6});
-  for (double& ratio : dataset.runs[0].contraction_ratio) ratio = 0.0;
+  for (double& ratio : dataset.runs[0].judged().values) ratio = 0.0;
   EXPECT_TRUE(says(refusal(dataset), "the muscle hardly moves"));
 }
 
@@ -223,7 +223,7 @@ TEST(BadData, WhereNothingMovesThatLeads) {
   domain::Dataset dataset = campaign();
   for (auto& run : dataset.runs) {
     if (run.load_kg < 15.0) continue;
-    for (double& ratio : run.contraction_ratio) ratio = 0.0;
+    for (double& ratio : run.judged().values) ratio = 0.0;
     for (double& current : run.current_mA) current *= 0.4;
   }
   const std::string text = refusal(dataset);
@@ -238,7 +238,7 @@ TEST(BadData, WhereNothingMovesThatLeads) {
 
 TEST(BadData, WithTheWholeCurrentALighterLoadHelps) {
   domain::Dataset dataset = small_campaign({11.138}, {3.6});
-  for (double& ratio : dataset.runs[0].contraction_ratio) ratio = 0.0;
+  for (double& ratio : dataset.runs[0].judged().values) ratio = 0.0;
   const std::string text = refusal(dataset);
   EXPECT_TRUE(says(text, "no run can be used for calibration: nothing moves enough in 1 run"));
   EXPECT_TRUE(says(text, "lighter loads"));
@@ -263,7 +263,7 @@ TEST(BadData, RowsALittleAboveTheLimitAreDroppedAndCounted) {
   EXPECT_EQ(before.beyond_limit, 0u);
   const double limit = plant::Braid(dataset.rig.muscle).largest_contraction_ratio();
   const double per_count = run::contraction_per_count(dataset.rig);
-  auto& ratios = dataset.runs[0].contraction_ratio;
+  auto& ratios = dataset.runs[0].judged().values;
   const auto highest = std::max_element(ratios.begin() + 150, ratios.end()) - ratios.begin();
   for (auto k = highest - 12; k < highest; ++k)
     ratios[static_cast<std::size_t>(k)] = per_count * std::ceil(1.01 * limit / per_count);
@@ -321,14 +321,14 @@ TEST(BadData, ACurrentWithoutASingleSpeedIsSaid) {
   domain::Run& run = dataset.runs[0];
   const domain::Run faster = ride(11.138, 2.4);
   run.current_mA.insert(run.current_mA.end(), faster.current_mA.begin(), faster.current_mA.end());
-  run.contraction_ratio.insert(run.contraction_ratio.end(), faster.contraction_ratio.begin(),
-                               faster.contraction_ratio.end());
+  run.judged().values.insert(run.judged().values.end(), faster.judged().values.begin(),
+                             faster.judged().values.end());
   EXPECT_TRUE(says(refusal(dataset), "has no single speed"));
 }
 
 TEST(BadData, RunsThatCannotBeUsedAreLeftOutAndNamed) {
   domain::Dataset dataset = campaign();
-  for (double& ratio : dataset.runs[3].contraction_ratio) ratio = 0.0;
+  for (double& ratio : dataset.runs[3].judged().values) ratio = 0.0;
   const CalibrationResult result = calibrate(dataset, {});
   ASSERT_EQ(result.grid.left_out.size(), 1u);
   EXPECT_EQ(result.grid.left_out[0].id, dataset.runs[3].id);
@@ -349,7 +349,7 @@ TEST(BadData, AWrongRigIsNoticed) {
 
 TEST(BadData, TheGaugeMustBeThereIfItIsAskedFor) {
   domain::Dataset dataset = campaign();
-  dataset.runs[1].muscle_pressure_Pa.reset();
+  dataset.runs[1].readings.pop_back();
   Options options;
   options.processing.pressure = PressureSource::gauge;
   EXPECT_TRUE(says(refusal(dataset, options), "no column muscle_pressure_bar"));

@@ -58,12 +58,13 @@ domain::Run planted_run(const plant::Rig& rig, double load_kg, double contractio
   domain::Run run;
   run.id = "planted";
   run.load_kg = load_kg;
+  run.read("contraction");
   const auto add = [&](int counts, double signed_coefficient) {
     const double e = (counts + 0.5) * per_count;
     const double pressure = load_kg * plant::gravity_m_per_s2 /
                             (braid.force_N(e, 1.0) - signed_coefficient * braid.contact_surface_m2(e));
     run.current_mA.push_back(4.0 + 16.0 * (pressure - 0.5e5) / 4.5e5);
-    run.contraction_ratio.push_back(counts * per_count);
+    run.judged().values.push_back(counts * per_count);
   };
   for (int counts = 10; counts <= 480; counts += 2) add(counts, contraction);
   for (int counts = 478; counts >= 10; counts -= 2) add(counts, -relaxation);
@@ -89,7 +90,7 @@ TEST(Processing, WhatALaserReadsIsNotTakenForCounts) {
   domain::Dataset dataset;
   domain::Run run = planted_run(dataset.rig, 16.0, 0.012, 0.013);
   const double rise_m = plant::count_height_m(dataset.rig);
-  for (double& e : run.contraction_ratio) e += 0.5 * rise_m / dataset.rig.muscle.rest_length_m;
+  for (double& e : run.judged().values) e += 0.5 * rise_m / dataset.rig.muscle.rest_length_m;
   dataset.rig.sensors.position().pulses_per_turn = 137;
   ProcessingOptions options;
   options.acceleration = Acceleration::neglected;
@@ -108,7 +109,7 @@ TEST(Processing, InertiaIsTakenOffByDifferencesOfCounts) {
   domain::Dataset dataset;
   domain::Run run = planted_run(dataset.rig, 16.0, 0.012, 0.012);
   const double rise_m = plant::count_height_m(dataset.rig);
-  run.contraction_ratio[100] += rise_m / dataset.rig.muscle.rest_length_m;  // one count early
+  run.judged().values[100] += rise_m / dataset.rig.muscle.rest_length_m;  // one count early
   ProcessingOptions options;
   const Samples counted = process(run, dataset, options).of(Direction::contraction);
   options.acceleration = Acceleration::neglected;

@@ -52,12 +52,13 @@ inline domain::Run ride(double load_kg, double period_s, double cycles = 3.0, co
   domain::Run result;
   result.id = fmt::format("m{:.0f}_{:.0f}", 1e3 * load_kg, 1e3 * period_s);
   result.load_kg = load_kg;
-  result.muscle_pressure_Pa.emplace();
+  result.read("contraction");
+  result.read("muscle_pressure");
   for (const auto& sample : recording.samples) {
     result.current_mA.push_back(sample.current_mA);
-    result.contraction_ratio.push_back(static_cast<double>(sample.counts) *
-                                       run::contraction_per_count(plan.rig));
-    result.muscle_pressure_Pa->push_back(sample.shown[plant::Sensed::muscle_pressure]);
+    result.judged().values.push_back(static_cast<double>(sample.counts) *
+                                     run::contraction_per_count(plan.rig));
+    result.find("muscle_pressure")->values.push_back(sample.shown[plant::Sensed::muscle_pressure]);
   }
   return result;
 }

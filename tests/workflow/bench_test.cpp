@@ -33,7 +33,7 @@ TEST(BenchDiagnosis, FindsNoFaultOfARunWhereEachHasALengthOfItsOwn) {
   domain::Dataset data = on_a_bench({}, 0.5);
   const std::array more{0.10, -0.045, -0.04, 0.03, 0.07};
   for (std::size_t i = 0; i < more.size(); ++i)
-    for (double& force_N : data.runs[i].force_N) force_N *= 1.0 + more[i];
+    for (double& force_N : data.runs[i].judged().values) force_N *= 1.0 + more[i];
   const Diagnosis found = diagnosis_of(data, 2);
   for (const BenchFault& fault : found.bench) ADD_FAILURE() << fault.words;
 }

@@ -213,8 +213,8 @@ TEST(NightlyDiagnose, IgnoresAGaugeThatContradictsTheMotion) {
   truth.sensors.put(plant::gauge());
   auto data = small(truth, 2.4);
   for (domain::Run& run : data.runs) {
-    double shown_Pa = run.muscle_pressure_Pa->front();
-    for (double& pressure_Pa : *run.muscle_pressure_Pa)
+    double shown_Pa = run.find("muscle_pressure")->values.front();
+    for (double& pressure_Pa : run.find("muscle_pressure")->values)
       pressure_Pa = shown_Pa += 0.03 * (pressure_Pa - shown_Pa);
   }
   const auto found = diagnosis_of(data, 0);
@@ -234,8 +234,8 @@ TEST(NightlyDiagnose, NamesADelayOfAllRunsBesideAnEffectThatIsMissing) {
   truth.effects.get<plant::SpeedDependentFriction>().ratio = 0.6;
   auto data = small(truth, 3.0);
   for (domain::Run& run : data.runs) {
-    run.contraction_ratio.insert(run.contraction_ratio.begin(), 3, run.contraction_ratio.front());
-    run.contraction_ratio.resize(run.current_mA.size());
+    run.judged().values.insert(run.judged().values.begin(), 3, run.judged().values.front());
+    run.judged().values.resize(run.current_mA.size());
   }
   const auto found = diagnosis_of(data, 0);
   EXPECT_TRUE(found.faults.empty()) << found.because;

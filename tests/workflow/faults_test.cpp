@@ -16,12 +16,12 @@ namespace {
 
 /// Its readings come so many rows later, from a row on.
 void delay(domain::Run& run, std::size_t ticks) {
-  auto& ratios = run.contraction_ratio;
+  auto& ratios = run.judged().values;
   for (std::size_t k = ratios.size(); k-- > ticks;) ratios[k] = ratios[k - ticks];
 }
 /// Its readings come so many rows earlier.
 void hasten(domain::Run& run, std::size_t ticks) {
-  auto& ratios = run.contraction_ratio;
+  auto& ratios = run.judged().values;
   for (std::size_t k = 0; k < ratios.size(); ++k) ratios[k] = ratios[std::min(k + ticks, ratios.size() - 1)];
 }
 
@@ -68,9 +68,9 @@ TEST(NightlyFaults, AllRunsThatAreEarlyAreFoundBesideAnEffectThatIsMissing) {
 TEST(Faults, AClockThatRunsSlowIsSaidWithTheLineToWrite) {
   auto data = small(plant::Rig{});
   for (domain::Run& run : data.runs) {
-    const auto read = run.contraction_ratio;
+    const auto read = run.judged().values;
     for (std::size_t k = 0; k < read.size(); ++k)
-      run.contraction_ratio[k] =
+      run.judged().values[k] =
           read[std::min(static_cast<std::size_t>(1.02 * static_cast<double>(k)), read.size() - 1)];
   }
   const auto found = diagnosis_of(data, 0);
@@ -85,8 +85,8 @@ TEST(Faults, ADriftThatAllRunsHaveIsNoEffect) {
   auto data = small(plant::Rig{});
   const double count = run::contraction_per_count(data.rig);
   for (domain::Run& run : data.runs)
-    for (std::size_t k = 0; k < run.contraction_ratio.size(); ++k)
-      run.contraction_ratio[k] += count * std::floor(static_cast<double>(k) / 40.0);
+    for (std::size_t k = 0; k < run.rows(); ++k)
+      run.judged().values[k] += count * std::floor(static_cast<double>(k) / 40.0);
   const auto found = diagnosis_of(data, 0);
   EXPECT_TRUE(found.effects.empty());
   ASSERT_EQ(found.bench.size(), 1u) << found.because;

@@ -46,10 +46,10 @@ domain::Dataset pressures_of(const plant::Rig& truth, const plant::Rig& describe
       measured.time_s.push_back(tick_s * k);
       give(measured, command_mA(measured.time_s.back(), period_s, lasts_s));
     }
-    run.muscle_pressure_Pa.emplace();  // tells that a gauge is there
+    run.read("muscle_pressure");
     const Loaded one{truth, run.load_kg};
-    std::vector<double> read_Pa = predict(run, {&one, 1}).front().judged;
-    run.muscle_pressure_Pa.reset();
+    std::vector<double> read_Pa = predict(run, {&one, 1}).front().judged();
+    run.readings.clear();
     for (double& Pa : read_Pa) Pa += normal(random);
     measured.take("muscle_pressure") = std::move(read_Pa);
   }
@@ -97,7 +97,7 @@ TEST(PressuresAlone, OfOneLongRunAtAHeldLengthTellTheVolumeAndTheExhaust) {
 TEST(PressuresAlone, SayAGaugesZeroInTheUnitOfItsColumn) {
   domain::Dataset data = pressures_of({}, {}, {4.0, 2.0, 1.0, 0.5}, 4.0, command);
   data.columns["muscle_pressure"] = {"p_kPa", "kPa"};
-  for (double& read_Pa : *data.runs[2].muscle_pressure_Pa) read_Pa += 5000.0;
+  for (double& read_Pa : data.runs[2].judged().values) read_Pa += 5000.0;
   const Diagnosis found = diagnosis_of(data, 2);
   ASSERT_EQ(found.bench.size(), 1u);
   EXPECT_EQ(found.bench[0].name, "zeros_differ");
