@@ -20,9 +20,7 @@ constexpr auto names(CommandUnit) {
 
 /// mA where the name is none of these.
 constexpr CommandUnit command_unit_of(std::string_view name) {
-  for (const auto& [unit, known] : names(CommandUnit{}))
-    if (known == name) return unit;
-  return {};
+  return named<CommandUnit>(name).value_or(CommandUnit::mA);
 }
 
 /// What is said of currents in mA, as it is of commands in that unit: "s2/mA2" as "s2/V2",

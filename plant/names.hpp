@@ -1,6 +1,7 @@
 // Enums whose spellings a function `names` lists, as files and messages have them.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <type_traits>
 
@@ -17,6 +18,14 @@ constexpr std::string_view name_of(T value) {
   for (const auto& [known, name] : names(value))
     if (known == value) return name;
   return {};
+}
+
+/// The one that is spelled so, if there is one.
+template <Named T>
+constexpr std::optional<T> named(std::string_view spelling) {
+  for (const auto& [known, name] : names(T{}))
+    if (name == spelling) return known;
+  return std::nullopt;
 }
 
 }  // namespace mckibben::plant

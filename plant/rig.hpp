@@ -223,8 +223,6 @@ struct RigOf {
     if (lever() != nullptr) lever_rules(*this, report);
     if (pair() == nullptr) return;
     pair_rules(report);
-    if (sensors.of(Sensed::force) != nullptr)
-      report("sensors", "a load cell is of rigs with one muscle: of two, angle and pressures are read");
   }
 
  private:

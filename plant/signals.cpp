@@ -81,7 +81,8 @@ std::string Channel::key() const {
 }
 
 std::string Channel::key_in_dataset() const {
-  return numbered(signal->in_dataset, muscle);
+  const bool own_name = muscle != 0 && signal->of_two != signal->key;
+  return numbered(own_name ? signal->of_two : signal->in_dataset, muscle);
 }
 
 std::string Channel::name() const {

@@ -119,7 +119,6 @@ struct Signal {
   std::string_view in_dataset{};     ///< its key
   std::string_view dataset_words{};  ///< what the key means, where `words` do not say it
   bool must_be_named = false;        ///< a column that has our name by chance is not meant
-  bool of_each_muscle = true;        ///< of a pair, too
   std::string_view of_two = key;     ///< its key where there are two muscles
   std::string_view reads{};  ///< of a reading: the key of what is read; a data set's column has its name
   bool whole = false;        ///< an integer
@@ -222,7 +221,6 @@ inline constexpr auto signals = std::to_array<Signal>({
      .value = [](const Sample& row, std::size_t i) { return row.side(i).cord_force_N; },
      .in_files = InFiles::measured_force,
      .in_dataset = "force",
-     .of_each_muscle = false,
      .of_two = "tension"},
     {.key = "joint_force",
      .unit = units::N,
@@ -347,8 +345,10 @@ inline constexpr auto signals = std::to_array<Signal>({
      .unit = units::N,
      .words = "force of the cord as measured",
      .kind = Kind::reading,
+     .part = Part::muscle,
      .needs = Needs::sensor,
-     .value = [](const Sample& row, std::size_t) { return row.shown[Sensed::force]; },
+     .value = [](const Sample& row, std::size_t i) { return row.side(i).shown[Sensed::force]; },
+     .of_two = "cell_tension",
      .reads = "force"},
 });
 

@@ -46,7 +46,7 @@ double Simulated::gauge_Pa(double now_s) {
   move_on(now_s);
   const double noise_Pa = noise_.of(plant::Sensed::muscle_pressure);
   if (takes_a_reading(*gauge(), now_s, std::exchange(gauged_s_, now_s)))
-    gauge_Pa_ = plant::shown(gauge(), ride_.reading().muscle_pressure_Pa + noise_Pa);
+    gauge_Pa_ = plant::shown(gauge(), ride_.reading().of(plant::Sensed::muscle_pressure) + noise_Pa);
   return gauge_Pa_;
 }
 

@@ -121,19 +121,21 @@ class Columns {
         findings_.push_back(std::move(*found));
     map_ =
         with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
-    Compared all, beside;
+    Compared all;
+    std::map<std::string, Compared> forces;  // of cords, by their keys
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const auto& readings = data_.runs[i].readings;
       all.add(i, data_.runs[i], expected_[i]);
       for (std::size_t reading = 1; reading < readings.size(); ++reading)
-        if (readings[reading].channel.is("force")) beside.add(i, data_.runs[i], expected_[i], reading);
+        if (const plant::Channel& channel = readings[reading].channel; channel.signal->key == "force")
+          forces[channel.key_in_dataset()].add(i, data_.runs[i], expected_[i], reading);
     }
     if (data_.judged() == domain::Judged::contraction && findings_.empty()) only_gain_or_zero(all);
     if (data_.judged() == domain::Judged::angle) angle(all);
-    if (data_.judged() == domain::Judged::force) force(all, false);
+    if (data_.judged() == domain::Judged::force) force("force", all, false);
     if (const domain::Reading& read = data_.runs.front().judged(); read.channel.is_pressure())
       judge(pressure(read.channel), all);
-    force(beside, true);
+    for (const auto& [key, beside] : forces) force(key, beside, true);
     if (data_.recorded.start != domain::Start::settled) return;
     const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::muscle_pressure);
     for (const auto& [line, gauge] : gauges_)
@@ -185,9 +187,9 @@ class Columns {
   }
 
   // What hangs on a cord says how large its force is, whatever moves it.
-  void force(const Compared& rows, bool by_mean) {
-    judge({.key = "force",
-           .place = map_["force"],
+  void force(const std::string& key, const Compared& rows, bool by_mean) {
+    judge({.key = key,
+           .place = map_[key],
            .units = {{"N", 1.0}, {"kN", 1e3, of_columns.same_kilo}, {"kgf", plant::gravity_m_per_s2}},
            .shown = " N",
            .opposite = by_mean ? of_columns.opposite_mean : of_columns.opposite,

@@ -324,9 +324,9 @@ domain::Dataset with_rows(domain::Dataset data) {
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
     domain::Run& run = data.runs[i];
     rows.stamps += run.measured->time_s.size();
-    if (!run.measured->read("force").empty())
-      rows.at_the_end +=
-          leave_out_the_end(data.rig.sensors.of(plant::Sensed::force), run.measured->take("force"));
+    for (MeasuredColumn& column : run.measured->columns)
+      if (!column.given && column.channel.signal->key == "force")
+        rows.at_the_end += leave_out_the_end(data.rig.sensors.of(plant::Sensed::force), column.values);
     Judging judging(run, data.rig.has_angle(), rows.row_s, i + 1);
     judging();
     rows.rows += run.rows();

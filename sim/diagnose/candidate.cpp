@@ -76,8 +76,7 @@ namespace {
 Rig with_law(Rig rig, const EffectName& whose, std::string_view variant) {
   with_effect(rig, whose.effect, whose.side, [&](auto& mine) {
     if constexpr (requires { mine.variant; }) {
-      for (const auto& [law, name] : names(mine.variant))
-        if (name == variant) mine.variant = law;
+      if (const auto law = plant::named<decltype(mine.variant)>(variant)) mine.variant = *law;
     }
   });
   return rig;

@@ -238,9 +238,9 @@ Sheet sheet_of(const plant::Rig& rig, const plant::Signal& signal) {
     const double reading = sensor.rise_m(radius_m) / (key == "angle" ? radius_m : rig.muscle.rest_length_m);
     return {sensor.resolution * reading, sensor.noise * reading, sensor.accuracy * reading};
   }
-  for (const plant::Sensor& sensor : rig.sensors)
-    if (name_of(sensor.signal) == key) return {sensor.resolution, sensor.noise, sensor.accuracy};
-  return {};
+  const auto sensed = plant::named<plant::Sensed>(key);
+  const plant::Sensor* sensor = sensed ? rig.sensors.of(*sensed) : nullptr;
+  return sensor != nullptr ? Sheet{sensor->resolution, sensor->noise, sensor->accuracy} : Sheet{};
 }
 
 /// The largest that was read of it, either way.

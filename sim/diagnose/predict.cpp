@@ -44,24 +44,24 @@ class Prediction final : public run::Follower {
       const ride::Rider& rider = all[i];
       for (std::size_t k = 0; k < channels_.size(); ++k)
         readings_[i].readings[k].push_back(seen(rider, channels_[k]));
-      readings_[i].pressure_Pa.push_back(rider.now.reading.muscle_pressure_Pa);
+      readings_[i].pressure_Pa.push_back(rider.now.reading.of(plant::Sensed::muscle_pressure));
     }
     readings_[0].states.push_back(all[0].now.flow.state);
   }
 
   double seen(const ride::Rider& rider, const plant::Channel& channel) const {
     const ride::Reading& now = rider.now.reading;
-    const std::string_view key = channel.signal->in_dataset;
-    const bool opposite = channel.muscle == 2;
-    if (key == "muscle_pressure") return opposite ? now.opposite_pressure_Pa : now.muscle_pressure_Pa;
-    if (key == "valve_pressure") return opposite ? now.opposite_valve_pressure_Pa : now.valve_pressure_Pa;
-    if (key == "force") {
-      const double force_N = rider.moment().cord_force_N();
-      return length_is_given_ ? force_N : std::max(force_N, 0.0);
-    }
     const plant::Rig& rig = rider.plant().rig();
+    const std::string_view key = channel.signal->in_dataset;
     if (key == "angle") return now.wheel_m / rig.joint.wheel_radius_m;
-    return now.wheel_m / (rest_length_m_ > 0.0 ? rest_length_m_ : rig.muscle.rest_length_m);
+    if (key == "contraction")
+      return now.wheel_m / (rest_length_m_ > 0.0 ? rest_length_m_ : rig.muscle.rest_length_m);
+    const plant::Sensed sensed = plant::named<plant::Sensed>(key).value();
+    const plant::Sensor* sensor = rig.sensors.of(sensed);
+    if (sensed != plant::Sensed::force || (sensor != nullptr && sensor->is_late()))
+      return now.of(sensed, channel.muscle);
+    const double force_N = rider.cord_force_N(channel.muscle);
+    return length_is_given_ ? force_N : std::max(force_N, 0.0);
   }
 
   std::vector<plant::Channel> channels_;  // that were read

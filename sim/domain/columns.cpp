@@ -29,7 +29,7 @@ std::vector<Quantity> all_quantities(plant::CommandUnit unit) {
                      all.size(),
                      true});
     add({&signal});
-    if (signal.part == plant::Part::muscle && signal.of_each_muscle)
+    if (signal.part == plant::Part::muscle)
       for (const std::size_t muscle : {1U, 2U}) add({&signal, muscle});
   }
   return all;

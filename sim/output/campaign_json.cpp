@@ -78,15 +78,18 @@ run::EndedRun ended_run(const run::CampaignJob& job, const Json& entry) {
 }
 
 Json columns_json(const plant::Rig& rig) {
-  if (rig.has_angle()) {
-    Json columns{{"angle", counted_json("angle_rad", data::reading_per_count(rig))}};
-    if (rig.sensors.of(plant::Sensed::force) != nullptr)
-      columns["force"] = {{"column", "force_N"}, {"unit", "N"}};
-    return columns;
-  }
-  if (rig.sensors.of(plant::Sensed::force) == nullptr) return Json::object();
-  return {{"contraction", counted_json("contraction_ratio", run::contraction_per_count(rig))},
-          {"force", {{"column", "force_N"}, {"unit", "N"}}}};
+  const bool cell = rig.sensors.of(plant::Sensed::force) != nullptr;
+  Json columns = Json::object();
+  if (rig.has_angle())
+    columns["angle"] = counted_json("angle_rad", data::reading_per_count(rig));
+  else if (cell)
+    columns["contraction"] = counted_json("contraction_ratio", run::contraction_per_count(rig));
+  if (cell)
+    for (const plant::Channel& channel : plant::measured_channels(rig, {.pair = rig.pair() != nullptr}))
+      if (channel.signal->reads == "force")
+        columns[plant::Channel{&plant::signal_of("force"), channel.muscle}.key_in_dataset()] = {
+            {"column", channel.name_in_dataset()}, {"unit", "N"}};
+  return columns;
 }
 
 Json dataset_json(const plant::Rig& rig, const std::string& name, const std::vector<run::EndedRun>& runs) {

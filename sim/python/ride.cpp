@@ -161,8 +161,8 @@ Shown Ride::shown() const {
   return {ride_.time_s(),
           angle ? none : rise_m / rig_->muscle.rest_length_m,
           angle ? rise_m / rig_->joint.wheel_radius_m : none,
-          plant::shown(gauge, reading.muscle_pressure_Pa),
-          pair ? plant::shown(gauge, reading.opposite_pressure_Pa) : none,
+          plant::shown(gauge, reading.of(plant::Sensed::muscle_pressure)),
+          pair ? plant::shown(gauge, reading.of(plant::Sensed::muscle_pressure, 2)) : none,
           counts_};
 }
 

@@ -108,7 +108,7 @@ Run shown(const char* name, std::size_t style, const RunGap& gap, const std::vec
   return run;
 }
 
-/// What drove a run of one muscle and was read beside, in the order in which a page lists it.
+/// What drove a run of one muscle, in the order in which a page lists it.
 void add_given(Group& group, const domain::Run& recorded, const plant::Rig& rig) {
   if (!recorded.current_mA.empty()) {
     group.given.push_back(
@@ -119,8 +119,6 @@ void add_given(Group& group, const domain::Run& recorded, const plant::Rig& rig)
              return plant.reference_pressure_Pa(recorded.current_mA[k]) / 1e5;
            }});
   }
-  if (const auto* force_N = force_beside(recorded))
-    group.given.push_back({"given_force", [force_N](std::size_t k) { return (*force_N)[k]; }});
 }
 
 Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const RunGap& gap,
@@ -153,9 +151,9 @@ Group group_of(const domain::Dataset& data, const Diagnosis& diagnosis, const Ru
     group.time_s = recorded->time_s;
     if (!pair) add_given(group, *recorded, data.rig);
     for (const domain::Reading& read : recorded->beside())
-      if (read.channel.signal->in_dataset == "muscle_pressure")
-        group.given.push_back({"given_" + read.channel.key_in_dataset(),
-                               [&read](std::size_t k) { return read.values[k] / plant::Pa_per_bar; }});
+      group.given.push_back({"given_" + read.channel.key_in_dataset(), [&read](std::size_t k) {
+                               return read.values[k] / read.channel.signal->unit.size;
+                             }});
   }
   if (const double left = left_of(gap, changed); !pair && std::isfinite(left) && left > 0.0)
     group.rmse = left;

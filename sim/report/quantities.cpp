@@ -48,6 +48,15 @@ Plot error_of(const std::string& id, std::string title, std::string_view key) {
   return plot_of(id, std::move(title), key, {{.key = id, .label = "error", .main = true}});
 }
 
+/// Lines of what was read, of each muscle of a pair; what was not read is not drawn.
+void add_measured(Plot& plot, const std::string& key, bool pair, const std::string& label,
+                  const std::string& each) {
+  for (Line& line : lines_of(pair, "given_" + key, label, false, each)) {
+    line.given = true;
+    plot.lines.push_back(std::move(line));
+  }
+}
+
 Plot pressures_of(const plant::Rig& rig, const PlotsOf& of) {
   const bool pair = of.driven.pair;
   Plot plot =
@@ -59,13 +68,9 @@ Plot pressures_of(const plant::Rig& rig, const PlotsOf& of) {
     add(lines_of(pair, "valve_pressure", "valve", false, "valve of muscle"));
   if (!pair && of.commands && asks_for_pressure(rig))
     add({{.key = "reference_pressure", .label = "commanded"}});
-  const auto measured = [&](const std::string& key, const std::string& label, const std::string& each) {
-    std::vector<Line> lines = lines_of(pair, key, label, false, each);
-    for (Line& line : lines) line.given = true;
-    add(lines);
-  };
-  if (pair || of.pressure) measured("given_muscle_pressure", "measured", "measured, muscle");
-  if (of.valve_pressure) measured("given_valve_pressure", "measured, valve", "measured, valve of muscle");
+  if (pair || of.pressure) add_measured(plot, "muscle_pressure", pair, "measured", "measured, muscle");
+  if (of.valve_pressure)
+    add_measured(plot, "valve_pressure", pair, "measured, valve", "measured, valve of muscle");
   return plot;
 }
 
@@ -145,7 +150,7 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
   if (about_force || (about_pressure && !pair))
     plots.push_back(plot_of("height", about_force ? "Contraction, as given" : "Contraction", at,
                             lines_of(false, at, "contraction")));
-  if (of.force) {
+  if (!pair && of.force) {
     plots.push_back(plot_of("force", "Force of the cord", "force",
                             {{.key = "given_force", .label = "measured", .given = true},
                              {.key = "force", .label = "cord", .main = true}}));
@@ -166,6 +171,7 @@ std::vector<Plot> plots_of(const plant::Rig& rig, const PlotsOf& of) {
                                   {{.key = "joint_force", .label = "force"}}));
   if (pair) {
     plots.push_back(plot_of("tensions", "Forces of the cords", "force", lines_of(true, "tension", "")));
+    add_measured(plots.back(), "tension", pair, "measured", "measured, cord");
     plots.push_back(plot_of("stiffness", "Stiffness of the joint", "stiffness",
                             {{.key = "given_stiffness", .label = "target", .given = true},
                              {.key = "stiffness", .label = "stiffness", .main = true}}));

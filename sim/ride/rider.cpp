@@ -147,7 +147,9 @@ void Rider::hold(const Drive& given, double until_s) {
   now.drive = drive;
   now.until_s = until_s;
   if (const plant::Sensor* cell = plant_.rig().sensors.of(plant::Sensed::force); cell && cell->is_late())
-    now.reading.late_force_N = seen(plant::Sensed::force, 0, std::max(moment().cord_force_N(), 0.0));
+    for (std::size_t muscle = 1; muscle <= (plant_.opposite() ? 2U : 1U); ++muscle)
+      now.reading.of(muscle)[plant::Sensed::force] =
+          seen(plant::Sensed::force, muscle, std::max(cord_force_N(muscle), 0.0));
 }
 
 /// The level may have jumped with the current's speed (T 4.6): a load that stuck may be free now.
@@ -219,13 +221,18 @@ void Rider::look() {
   using enum plant::Sensed;
   now.reading.wheel_m = wheel_m;
   now.reading.misread_m = wheel_m - true_rise_m;
-  now.reading.muscle_pressure_Pa =
-      plant_.rig().effects.shown_Pa(seen(muscle_pressure, 0, state.side.muscle_pressure_Pa));
-  now.reading.valve_pressure_Pa = seen(valve_pressure, 0, state.side.valve_pressure_Pa);
-  if (!plant_.opposite()) return;
-  now.reading.opposite_pressure_Pa =
-      plant_.opposite()->rig().effects.shown_Pa(seen(muscle_pressure, 1, state.opposite.muscle_pressure_Pa));
-  now.reading.opposite_valve_pressure_Pa = seen(valve_pressure, 1, state.opposite.valve_pressure_Pa);
+  const auto gauges = [&](std::size_t muscle, const plant::Rig& rig, const plant::SideState<double>& side) {
+    plant::BySensed& shown = now.reading.of(muscle);
+    shown[muscle_pressure] = rig.effects.shown_Pa(seen(muscle_pressure, muscle, side.muscle_pressure_Pa));
+    shown[valve_pressure] = seen(valve_pressure, muscle, side.valve_pressure_Pa);
+  };
+  gauges(1, plant_.rig(), state.side);
+  if (plant_.opposite()) gauges(2, plant_.opposite()->rig(), state.opposite);
+}
+
+double Rider::cord_force_N(std::size_t muscle) const {
+  const plant::Moment<double> all = moment();
+  return muscle == 2 ? all.opposite.cord_force_N() : all.cord_force_N();
 }
 
 double Rider::seen(plant::Sensed sensed, std::size_t muscle, double value) {
@@ -234,7 +241,7 @@ double Rider::seen(plant::Sensed sensed, std::size_t muscle, double value) {
   constexpr double no_slope = std::numeric_limits<double>::quiet_NaN();
   constexpr std::size_t signals = names(plant::Sensed{}).size();
   now.late.resize(2 * signals);
-  PastValues& past = now.late[muscle * signals + static_cast<std::size_t>(sensed)];
+  PastValues& past = now.late[(muscle - 1) * signals + static_cast<std::size_t>(sensed)];
   const double then_s = now.time_s - sensor->late_s(now.time_s);
   past.note(now.time_s, value, no_slope, then_s);
   return past.at(then_s);

@@ -69,10 +69,11 @@ Drive settling(Drive drive, const plant::Rig& rig);
 struct Reading {
   double wheel_m = 0.0;    ///< rise that the encoder's wheel shows; of a pair, from theta = 0
   double misread_m = 0.0;  ///< what of it is not the joint's
-  // As sensors on each muscle show them; a force only where its sensor is late.
-  double muscle_pressure_Pa = 0.0, opposite_pressure_Pa = 0.0;
-  double valve_pressure_Pa = 0.0, opposite_valve_pressure_Pa = 0.0;
-  double late_force_N = 0.0;
+  /// As sensors on each muscle show it; a force only where its sensor is late.
+  std::array<plant::BySensed, 2> sides{};
+
+  plant::BySensed& of(std::size_t muscle) { return sides[muscle == 2 ? 1 : 0]; }
+  double of(plant::Sensed signal, std::size_t muscle = 1) const { return sides[muscle == 2 ? 1 : 0][signal]; }
 };
 
 class Rider {
@@ -125,12 +126,13 @@ class Rider {
 
   const plant::Plant& plant() const { return plant_; }
   plant::Moment<double> moment() const { return plant_.moment(now.flow.state, now.flow.memory, now.held); }
+  double cord_force_N(std::size_t muscle) const;  ///< of muscle 1 or 2 of a pair; else 0 or 1
 
   State now;
 
  private:
   void judge_slip();
-  /// What a sensor on a muscle (0 or 1) shows of a value that it has now.
+  /// What a sensor on a muscle (1 or 2) shows of a value that it has now.
   double seen(plant::Sensed sensed, std::size_t muscle, double value);
 
   plant::Plant plant_;

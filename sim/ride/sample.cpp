@@ -9,30 +9,15 @@ namespace mckibben::ride {
 
 namespace {
 
-using Value = double (*)(const plant::Sample&, std::size_t);
-
-/// Of each signal that sensors read, but for the position.
-constexpr auto true_values = [] {
-  std::array<Value, names(plant::Sensed{}).size()> all{};
-  for (const auto& [sensed, key] : names(plant::Sensed{}))
-    for (const plant::Signal& signal : plant::signals)
-      if (signal.key == key) all[static_cast<std::size_t>(sensed)] = signal.value;
-  return all;
-}();
-
 /// What the sensors of a muscle show.
 void show(const plant::Sensors& sensors, const plant::Sample& row, std::size_t muscle, const Reading& reading,
           const plant::BySensed& noise, plant::BySensed& shown) {
   for (const auto& [sensed, key] : names(plant::Sensed{})) {
     if (sensed == plant::Sensed::contraction) continue;
     const plant::Sensor* const sensor = sensors.of(sensed);
-    double value = true_values[static_cast<std::size_t>(sensed)](row, muscle);
-    if (sensed == plant::Sensed::muscle_pressure)
-      value = muscle == 1 ? reading.muscle_pressure_Pa : reading.opposite_pressure_Pa;
-    if (sensed == plant::Sensed::valve_pressure)
-      value = muscle == 1 ? reading.valve_pressure_Pa : reading.opposite_valve_pressure_Pa;
-    if (sensed == plant::Sensed::force)  // a cord that would push is slack
-      value = sensor && sensor->is_late() ? reading.late_force_N : std::max(value, 0.0);
+    const bool now = sensed == plant::Sensed::force && !(sensor && sensor->is_late());
+    // A cord that would push is slack.
+    const double value = now ? std::max(row.side(muscle).cord_force_N, 0.0) : reading.of(sensed, muscle);
     shown[sensed] = plant::shown(sensor, value + noise[sensed]);
   }
 }

@@ -39,29 +39,26 @@ bool has_rows(const domain::Run& run) {
 
 }  // namespace
 
+Shown shown_of(const plant::Channel& channel, const domain::Run& run, const plant::Rig& rig, bool counted) {
+  const double length_m = rig.muscle.rest_length_m;
+  const std::string_view signal = channel.signal->key;
+  if (signal == "contraction_ratio")
+    return [counted, scale = run.rest_length_m > 0.0 ? length_m / run.rest_length_m : 1.0](
+               const Sample& row) { return counted ? row.read_ratio : row.shown_ratio() * scale; };
+  if (signal == "angle")
+    return [counted, scale = length_m / rig.joint.wheel_radius_m](const Sample& row) {
+      return counted ? row.read_angle_rad : row.angle_rad + row.misread_ratio * scale;
+    };
+  if (const auto sensed = plant::named<plant::Sensed>(signal))
+    return [sensed = *sensed, muscle = channel.muscle](const Sample& row) {
+      return row.side(muscle).shown[sensed];
+    };
+  return [channel](const Sample& row) { return channel.signal->value(row, channel.muscle); };
+}
+
 std::vector<Compared> compared(const domain::Run& run, const plant::Rig& rig, const Recording& recording) {
   const bool rows = has_rows(run), counted = rows ? !run.measured : run.measured->counted;
   const bool degrees = run.measured && run.measured->angle_in_degrees;
-  const double length_m = rig.muscle.rest_length_m;
-  // What a sensor would show.
-  const auto simulated = [&](const plant::Channel& channel) -> std::function<double(const Sample&)> {
-    const std::string_view signal = channel.signal->key;
-    if (signal == "contraction_ratio")
-      return [counted, scale = run.rest_length_m > 0.0 ? length_m / run.rest_length_m : 1.0](
-                 const Sample& row) { return counted ? row.read_ratio : row.shown_ratio() * scale; };
-    if (signal == "angle")
-      return [counted, scale = length_m / rig.joint.wheel_radius_m](const Sample& row) {
-        return counted ? row.read_angle_rad : row.angle_rad + row.misread_ratio * scale;
-      };
-    const auto value = [signal = channel.signal, muscle = channel.muscle](const Sample& row) {
-      return signal->value(row, muscle);
-    };
-    for (const auto& [sensed, key] : names(plant::Sensed{}))
-      if (signal == key)
-        return
-            [sensed, muscle = channel.muscle](const Sample& row) { return row.side(muscle).shown[sensed]; };
-    return value;
-  };
   std::vector<Compared> all;
   for (const Column& column : columns_of(run)) {
     const plant::Channel& channel = column.channel;
@@ -69,7 +66,7 @@ std::vector<Compared> compared(const domain::Run& run, const plant::Rig& rig, co
     const double factor = 1.0 / (in_degrees ? plant::degree_rad : channel.signal->unit.size);
     all.push_back({channel.key_in_dataset(), in_degrees ? "deg" : std::string(channel.signal->unit.name),
                    [factor, column](std::size_t k) { return factor * column.at(k); },
-                   [factor, &recording, shown = simulated(channel)](std::size_t k) {
+                   [factor, &recording, shown = shown_of(channel, run, rig, counted)](std::size_t k) {
                      return factor * shown(recording.samples[k]);
                    }});
   }

@@ -21,6 +21,10 @@ struct Gap {
   double low = std::numeric_limits<double>::infinity(), high = -low;  ///< of what was measured
 };
 
+/// What a sensor would show of a signal in a run, from a row of its simulation; `counted`: in whole counts.
+using Shown = std::function<double(const Sample& row)>;
+Shown shown_of(const plant::Channel& channel, const domain::Run& run, const plant::Rig& rig, bool counted);
+
 /// Each reading beside its simulation at a row of the recording, in the unit of its gap; NaN where there is
 /// no reading. What was counted is compared with counts, all else with what a sensor would show.
 struct Compared {

@@ -74,18 +74,11 @@ std::vector<data::Expected> expected_of(const domain::Dataset& data,
   std::vector<data::Expected> list(replayed.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const domain::Run& run = data.runs[i];
-    const double longer = run.rest_length_m > 0.0 ? data.rig.muscle.rest_length_m / run.rest_length_m : 1.0;
     const auto& samples = replayed[i].recording.samples;
     for (const Sample& sample : samples) list[i].pressure_Pa.push_back(sample.state.side.muscle_pressure_Pa);
-    for (const auto& [channel, values, missing] : run.readings) {
-      std::vector<double>& shown = list[i].readings.emplace_back();
-      for (const Sample& sample : samples) {
-        const double value = channel.signal->value(sample, channel.muscle);
-        shown.push_back(channel.is("contraction")                       ? sample.shown_ratio() * longer
-                        : channel.is("force") && !run.length_is_given() ? std::max(value, 0.0)
-                                                                        : value);
-      }
-    }
+    for (const domain::Reading& reading : run.readings)
+      std::ranges::transform(samples, std::back_inserter(list[i].readings.emplace_back()),
+                             shown_of(reading.channel, run, data.rig, false));
   }
   return list;
 }

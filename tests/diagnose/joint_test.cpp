@@ -136,5 +136,26 @@ TEST(Joint, GaugesOfBothMusclesAreCompared) {
   EXPECT_LT(left.segment(rows, rows).norm(), 0.3 * left.tail(rows).norm());  // muscle 2 is the one that leaks
 }
 
+TEST(Joint, TensionsOfBothCordsAreReadings) {
+  domain::Dataset data = of_a_joint(plant::thesis_pair(), false);
+  const Loaded pair{data.rig};
+  for (domain::Run& run : data.runs) {
+    for (const std::size_t muscle : {1U, 2U}) run.read("force", {}, muscle);
+    const Readings readings = predict(run, {&pair, 1}).front();
+    for (const std::size_t muscle : {1U, 2U}) run.readings[muscle].values = readings.readings[muscle];
+  }
+  EXPECT_EQ(data.runs[0].readings[2].channel.key_in_dataset(), "tension_2");
+  const auto replayed = run::follow(data.rig, 0.0, run::course_of(data.runs[0], data.rig));
+  for (std::size_t k = 0; k < data.runs[0].rows(); k += 10)
+    EXPECT_NEAR(replayed.samples[k].opposite.cord_force_N, data.runs[0].readings[2].values[k], 0.5) << k;
+  Rig weaker = data.rig;
+  std::get<plant::Pair>(weaker.mechanics).opposite.muscle.rest_radius_m *= 0.99;
+  const Experiment experiment(data, nothing_masked(data), 2);
+  const auto left = residuals_of(experiment, weaker, {0});
+  const auto rows = static_cast<Eigen::Index>(data.runs[0].rows());
+  ASSERT_EQ(left.size(), 3 * rows);
+  EXPECT_GT(left.tail(rows).norm(), 3.0 * left.segment(rows, rows).norm());  // muscle 2 is the weaker one
+}
+
 }  // namespace
 }  // namespace mckibben::diagnose

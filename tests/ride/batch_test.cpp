@@ -75,7 +75,9 @@ void expect_as_alone(const std::vector<Of>& rigs, const std::vector<Reading>& re
     alone.start(group_drive(0), 0.0);
     for (int k = 0; k < group_ticks; ++k) alone.step(group_drive(k), group_tick_s * (k + 1));
     EXPECT_NEAR(readings[i].wheel_m, alone.reading().wheel_m, most_m) << i;
-    EXPECT_NEAR(readings[i].opposite_pressure_Pa, alone.reading().opposite_pressure_Pa, 1.0) << i;
+    EXPECT_NEAR(readings[i].of(plant::Sensed::muscle_pressure, 2),
+                alone.reading().of(plant::Sensed::muscle_pressure, 2), 1.0)
+        << i;
   }
   EXPECT_GT(std::abs(readings[0].wheel_m - readings[1].wheel_m), 1e-6);
 }

@@ -112,7 +112,8 @@ TEST(Drives, EqualMusclesHoldTheLinkWhereItHangs) {
     for (int k = 1; k <= 100; ++k) ride.step(drive, 0.01 * k);
     EXPECT_NEAR(ride.plant().angle_rad(ride.flow().state.joint.contraction_ratio), 0.0, 1e-9);
     EXPECT_NEAR(ride.moment().cord_force_N(), ride.moment().opposite.cord_force_N(), 1e-6);
-    EXPECT_EQ(ride.reading().muscle_pressure_Pa, ride.reading().opposite_pressure_Pa);
+    EXPECT_EQ(ride.reading().of(plant::Sensed::muscle_pressure),
+              ride.reading().of(plant::Sensed::muscle_pressure, 2));
   }
 }
 

@@ -50,7 +50,7 @@ class Driven : public testing::TestWithParam<Method> {
     for (std::size_t k = 0; k < given.size(); ++k) {
       const auto& joint = ride.flow().state.joint;
       note(worst.e, joint.contraction_ratio - reference.at("contraction_ratio")[k]);
-      EXPECT_EQ(ride.reading().muscle_pressure_Pa, bar * given[k]);
+      EXPECT_EQ(ride.reading().of(plant::Sensed::muscle_pressure), bar * given[k]);
       if (k + 1 == given.size()) break;
       drive.muscle_pressure_Pa = bar * given[k + 1];
       ride.step(drive, static_cast<double>(k + 1) * stamp_s);

@@ -288,7 +288,7 @@ TEST(Ride, ALateReadingShowsWhereTheLoadWas) {
       }
       late.step(drive_at(k), tick_s * (k + 1));
       EXPECT_NEAR(late.reading().wheel_m, prompt.reading().wheel_m, 3e-6) << k;  // a cubic's error
-      EXPECT_EQ(late.reading().muscle_pressure_Pa, late.flow().state.side.muscle_pressure_Pa);
+      EXPECT_EQ(late.reading().of(plant::Sensed::muscle_pressure), late.flow().state.side.muscle_pressure_Pa);
     }
     EXPECT_GT(late.reading().wheel_m, 0.01);
   }
@@ -317,10 +317,10 @@ TEST(Ride, AGaugeInErrorIsReadAndGivenAsItShows) {
   for (const auto& [rig, true_Pa] : {std::pair{offset, 1.8e5}, std::pair{gain, 2e5 / 1.1}}) {
     Ride driven(Loaded{rig, load_kg}, {solver::Method::erk, 1e-6});
     driven.start({{.muscle_pressure_Pa = 1e5}}, 0.0);
-    EXPECT_NEAR(driven.reading().muscle_pressure_Pa, 1e5, 1e-6);
+    EXPECT_NEAR(driven.reading().of(plant::Sensed::muscle_pressure), 1e5, 1e-6);
     driven.step({{.muscle_pressure_Pa = 2e5}}, tick_s);
     EXPECT_NEAR(driven.flow().state.side.muscle_pressure_Pa, true_Pa, 1e-6);
-    EXPECT_NEAR(driven.reading().muscle_pressure_Pa, 2e5, 1e-6);
+    EXPECT_NEAR(driven.reading().of(plant::Sensed::muscle_pressure), 2e5, 1e-6);
     Ride commanded(Loaded{rig, load_kg}, {solver::Method::erk, 1e-6});
     Ride nominal(Loaded{plant::Rig{}, load_kg}, {solver::Method::erk, 1e-6});
     for (Ride* ride : {&commanded, &nominal}) {
@@ -330,7 +330,7 @@ TEST(Ride, AGaugeInErrorIsReadAndGivenAsItShows) {
     const double there_Pa = commanded.flow().state.side.muscle_pressure_Pa;
     EXPECT_EQ(there_Pa, nominal.flow().state.side.muscle_pressure_Pa);
     EXPECT_EQ(commanded.reading().wheel_m, nominal.reading().wheel_m);
-    EXPECT_NEAR(commanded.reading().muscle_pressure_Pa, rig.effects.shown_Pa(there_Pa), 1e-6);
+    EXPECT_NEAR(commanded.reading().of(plant::Sensed::muscle_pressure), rig.effects.shown_Pa(there_Pa), 1e-6);
     EXPECT_NEAR(rig.effects.shown_Pa(true_Pa), 2e5, 1e-6);
   }
 }
