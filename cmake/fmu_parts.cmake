@@ -7,7 +7,7 @@ foreach(folder plant sim/engine sim/ride sim/fmu/model)
   file(COPY ${ROOT}/${folder} DESTINATION ${STAGE}/sources/${parent})
 endforeach()
 file(COPY ${ROOT}/sim/domain/rig_number.cpp ${ROOT}/sim/domain/rig_number.hpp ${ROOT}/sim/domain/number.cpp ${ROOT}/sim/domain/number.hpp
-     ${ROOT}/sim/domain/renamed.hpp
+     ${ROOT}/sim/domain/outer_force.hpp ${ROOT}/sim/domain/renamed.hpp
   DESTINATION ${STAGE}/sources/sim/domain)
 file(COPY ${ROOT}/cmake/fmu.cmake ${ROOT}/LICENSE DESTINATION ${STAGE}/sources)
 file(WRITE ${STAGE}/sources/CMakeLists.txt

@@ -13,13 +13,15 @@ struct From {
   }
 };
 
+inline constexpr double largest_outside = 1e5;  ///< N or N m
+
 /// A force on the cord from outside.
 struct OuterForce : From {
   double force_N = 0.0;
 
   static void fields(auto& self, auto& visit) {
     From::fields(self, visit);
-    visit.required("force", self.force_N, "N", -1e5, 1e5,
+    visit.required("force", self.force_N, "N", -largest_outside, largest_outside,
                    "positive lengthens the muscle, as a load does: 9.80665 N for a kilogram");
   }
 };
@@ -30,7 +32,7 @@ struct OuterTorque : From {
 
   static void fields(auto& self, auto& visit) {
     From::fields(self, visit);
-    visit.required("torque", self.torque_N_m, "N.m", -1e4, 1e4,
+    visit.required("torque", self.torque_N_m, "N.m", -largest_outside, largest_outside,
                    "positive where it turns as muscle 1 does that contracts");
   }
 };

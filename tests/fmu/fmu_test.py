@@ -159,6 +159,14 @@ class AnFmu(unittest.TestCase):
             heavier[-201] = heavier[-201] + f"\n0 set {fmu.reference['load']} 20"
             self.assertLess(float(fmu.answers(heavier)[-1]), float(fmu.answers(ride)[-1]) - 0.01)
 
+    def test_a_force_from_outside_acts_as_a_load_does(self):
+        for fmu in self.each("--true-states"):
+            alone, pulled, heavier = (
+                fmu.moved("contraction_ratio", ({"load": kg, "current": 10, "joint_force": force}, 300))[-1]
+                for kg, force in ((16, 0), (16, 2 * 9.80665), (18, 0)))
+            self.assertLess(pulled, alone - 0.005)
+            self.assertAlmostEqual(pulled, heavier, delta=0.2 * (alone - pulled))  # another mass swings in differently
+
     def test_says_what_is_wrong(self):
         for fmu in self.each():
             radius = fmu.reference["muscle.rest_radius"]
@@ -265,6 +273,8 @@ class AnFmu(unittest.TestCase):
                                 ({"current_1": 6, "current_2": 14}, 150))
         self.assertGreater(up, 0.1)
         self.assertLess(down, 0.0)
+        still, turned = fmu.moved("encoder_angle", ({"current_1": 12, "current_2": 12}, 0), ({"joint_torque": 4}, 200))
+        self.assertGreater(turned, still + 0.01)
 
     def test_of_a_lever_has_an_angle_and_a_load(self):
         self.rig.write_text("schema: mckibben-rig/1\nmechanics:\n  kind: lever\n"

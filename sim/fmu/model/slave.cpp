@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/domain/outer_force.hpp>
 #include <sim/domain/rig_number.hpp>
 #include <sim/engine/failure.hpp>
 #include <sim/fmu/model/slave.hpp>
@@ -41,6 +42,8 @@ void Slave::set(Reference reference, double value) {
     opposite_current_mA_ = value;
   } else if (reference == length && rig_.holds_a_length()) {
     length_m_ = value;
+  } else if (reference == outside && !rig_.holds_a_length()) {
+    outside_ = value;
   } else if (reference == load && rig_.lifts_a_load()) {
     if (steps) require_hanging(value);  // before, parameters may still change the rig
     load_kg_ = value;
@@ -69,6 +72,7 @@ ride::Drive Slave::drive() const {
   ride::Drive now;
   now.current_mA = plant::dac_output_mA(rig_.dac, current_mA_);
   now.opposite.current_mA = plant::dac_output_mA(rig_.dac, opposite_current_mA_);
+  now.joint_force_N = rig_.has_angle() ? domain::as_force_N(outside_, rig_.joint.wheel_radius_m) : outside_;
   if (rig_.holds_a_length()) {
     now.contraction_ratio = 1.0 - length_m_ / rig_.muscle.rest_length_m;
     if (!plant::Braid(rig_.muscle).in_domain(*now.contraction_ratio))
@@ -159,8 +163,8 @@ void Slave::hang(double load_kg) {
 
 template <class Self, class Visitor>
 void Slave::members(Self& self, Visitor& visit) {
-  visit(self.current_mA_, self.opposite_current_mA_, self.length_m_, self.load_kg_, self.hanging_kg_,
-        self.time_s_, self.mode_, self.counts_);
+  visit(self.current_mA_, self.opposite_current_mA_, self.length_m_, self.outside_, self.load_kg_,
+        self.hanging_kg_, self.time_s_, self.mode_, self.counts_);
 }
 
 std::string Slave::bytes(const std::string& token) const {
@@ -214,6 +218,8 @@ double Slave::get(Reference reference) {
       return load_kg_;
     case length:
       return length_m_;
+    case outside:
+      return outside_;
     default:
       break;
   }

@@ -59,6 +59,7 @@ class Slave {
   std::vector<std::string> paths_;
   std::vector<plant::Channel> channels_;
   double current_mA_, opposite_current_mA_ = 0.0, length_m_;
+  double outside_ = 0.0;  ///< N, or N m of a joint with an angle
   double load_kg_ = 0.0, hanging_kg_ = 0.0;
   double time_s_ = 0.0;
   Mode mode_ = Mode::instantiated;

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <sstream>
 
+#include <sim/domain/outer_force.hpp>
 #include <sim/domain/rig_number.hpp>
 #include <sim/fmu/model/variables.hpp>
 
@@ -20,6 +21,11 @@ Variable of_channel(Reference reference, const plant::Channel& channel, Role rol
 void add_inputs(std::vector<Variable>& list, const plant::Rig& rig) {
   for (const plant::Channel& channel : channels_of(rig)) {
     if (channel.signal->kind != plant::Kind::input) continue;
+    if (!channel.signal->of_commands_in) {
+      list.push_back(of_channel(outside, channel, Role::input));
+      list.back().lowest = -(list.back().highest = domain::largest_outside);
+      continue;
+    }
     const bool second = channel.muscle == 2;
     list.push_back(of_channel(second ? opposite_current : current, channel, Role::input));
     list.back().start = (second ? rig.pair()->opposite.valve : rig.valve).zero_command;
@@ -50,7 +56,9 @@ std::vector<plant::Channel> channels_of(const plant::Rig& rig) {
   plant::Rig seen = rig;
   if (rig.holds_a_length() && seen.sensors.of(plant::Sensed::force) == nullptr)  // a bench has one
     seen.sensors.put({.signal = plant::Sensed::force, .kind = plant::SensorKind::load_cell});
-  return plant::channels_of(seen, {.pair = rig.pair() != nullptr, .length = rig.holds_a_length()});
+  return plant::channels_of(
+      seen,
+      {.pair = rig.pair() != nullptr, .length = rig.holds_a_length(), .joint_force = !rig.holds_a_length()});
 }
 
 std::vector<std::string> parameter_paths(const plant::Rig& rig) {

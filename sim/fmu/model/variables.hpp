@@ -20,6 +20,7 @@ enum : Reference {
   load = 2,
   opposite_current = 3,
   length = 4,
+  outside = 5,  ///< a force, or a torque, on the joint
   first_output = 100,
   first_parameter = 1000
 };
