@@ -104,7 +104,7 @@ std::string twins(const Diagnosis& diagnosis) {
   std::size_t others = 0;
   for (const auto& one : diagnosis.explanations)
     if (one.as_good && !one.chosen && ++others <= most_others)
-      text += fmt::format("  {}\n", explained_by(one));
+      text += fmt::format("  {}\n", explained_as_well_by(diagnosis, one));
   if (others > most_others)
     text += fmt::format("  and {} more: explanations in diagnosis.json\n", others - most_others);
   return text;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <tuple>
@@ -221,6 +222,45 @@ std::string explained_by(const diagnose::Explanation& explanation) {
   return fmt::format("{}", fmt::join(explanation.effects, " with "));
 }
 
+namespace {
+
+/// What an explanation is made of, a law of force among it.
+std::vector<std::string> parts_of(const diagnose::Explanation& one) {
+  std::vector<std::string> parts = one.effects;
+  if (one.kind == diagnose::Explanation::Kind::law) parts.emplace_back("a law of force");
+  return parts;
+}
+
+/// Those that `others` lacks.
+std::vector<std::string> only_in(const std::vector<std::string>& parts,
+                                 const std::vector<std::string>& others) {
+  std::vector<std::string> only;
+  std::ranges::copy_if(parts, std::back_inserter(only), [&](const std::string& part) {
+    return std::ranges::find(others, part) == others.end();
+  });
+  return only;
+}
+
+}  // namespace
+
+std::string explained_as_well_by(const diagnose::Diagnosis& diagnosis,
+                                 const diagnose::Explanation& explanation) {
+  using enum diagnose::Explanation::Kind;
+  const auto chosen = std::ranges::find_if(diagnosis.explanations, &diagnose::Explanation::chosen);
+  if (chosen == diagnosis.explanations.end() || diagnosis.verdict == diagnose::Verdict::cannot_tell)
+    return explained_by(explanation);
+  const auto found = parts_of(*chosen), parts = parts_of(explanation);
+  const auto more = only_in(parts, found), less = only_in(found, parts);
+  if (less.size() == found.size()) return explained_by(explanation);  // nothing in common
+  if (!more.empty() && !less.empty())
+    return fmt::format("the same with {} in place of {}", listed(more), listed(less));
+  if (!more.empty()) return fmt::format("the same with {}", listed(more));
+  if (!less.empty()) return fmt::format("the same without {}", listed(less));
+  if (explanation.kind == nothing) return "the same on the rig as described";
+  return chosen->kind == nothing ? "the same with other values of the rig's parameters"
+                                 : explained_by(explanation);
+}
+
 std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis) {
   // With a fault of the bench neither says anything; where nothing is missing, or the difference is within
   // noise, there is nothing to explain.
@@ -284,7 +324,7 @@ std::string left_undecided(const diagnose::Diagnosis& diagnosis) {
   if (twins) return "No current that was tried and is not yet in the data would distinguish these names.";
   std::vector<std::string> as_good;
   for (const auto& one : diagnosis.explanations)
-    if (one.as_good && !one.chosen) as_good.push_back(explained_by(one));
+    if (one.as_good && !one.chosen) as_good.push_back(explained_as_well_by(diagnosis, one));
   return as_good.empty() ? "" : fmt::format("Not decided: {} may explain the data as well.", listed(as_good));
 }
 

@@ -65,6 +65,11 @@ using diagnose::listed;
 /// than they are stated to be".
 std::string explained_by(const diagnose::Explanation& explanation);
 
+/// The same of one that explains the data as well: by what differs from what was found, "the same without
+/// load_error".
+std::string explained_as_well_by(const diagnose::Diagnosis& diagnosis,
+                                 const diagnose::Explanation& explanation);
+
 /// How the recalibrated rig can be worse than the nominal one; empty where it is not.
 std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis);
 

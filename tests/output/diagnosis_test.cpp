@@ -203,14 +203,36 @@ TEST(DiagnosisTable, SaysWhyTheRecalibratedRigIsWorseOnlyWhereItIs) {
   EXPECT_TRUE(lacks(table_of(measured(), found), "worse than the nominal"));
 }
 
-TEST(DiagnosisTable, NamesEquivalentModelsWithoutNumbersThatNobodyExplains) {
+TEST(DiagnosisTable, SaysEquivalentModelsByWhatDiffersFromWhatWasFound) {
   using enum diagnose::Explanation::Kind;
+  using diagnose::Explanation;
   diagnose::Diagnosis found = diagnosed();
-  found.explanations = {{.kind = nothing, .effects = {"loads_differ"}, .as_good = true, .chosen = true},
-                        {.kind = effects, .effects = {"loads_differ"}, .misfit = 24.0, .as_good = true}};
-  EXPECT_TRUE(holds(table_of(measured(), found), "explain these data as well\n  loads_differ\n"));
-  EXPECT_TRUE(lacks(table_of(measured(), found), "misfit"));
-  EXPECT_EQ(explained_by(found.explanations[0]), "loads_differ on the rig as described");
+  const auto said = [&](Explanation chosen, Explanation other) {
+    chosen.chosen = true;
+    other.misfit = 24.0;
+    found.explanations = {chosen, other};
+    for (Explanation& one : found.explanations) one.as_good = true;
+    const std::string text = table_of(measured(), found), heading = "explain these data as well\n  ";
+    EXPECT_TRUE(lacks(text, "misfit")) << "a number that nobody explains";
+    const std::size_t at = text.find(heading) + heading.size();
+    return text.substr(at, text.find('\n', at) - at);
+  };
+  const Explanation creep{.kind = effects, .effects = {"bladder_creep"}},
+      loads{.kind = effects, .effects = {"bladder_creep", "loads_differ"}},
+      lag{.kind = effects, .effects = {"bladder_creep", "valve_lag"}},
+      described{.kind = nothing, .effects = {"bladder_creep"}},
+      lawful{.kind = law, .effects = {"bladder_creep"}};
+  EXPECT_EQ(said(loads, creep), "the same without loads_differ");
+  EXPECT_EQ(said(creep, loads), "the same with loads_differ");
+  EXPECT_EQ(said(loads, lag), "the same with valve_lag in place of loads_differ");
+  EXPECT_EQ(said(creep, described), "the same on the rig as described");
+  EXPECT_EQ(said(described, creep), "the same with other values of the rig's parameters");
+  EXPECT_EQ(said(creep, lawful), "the same with a law of force");
+  EXPECT_EQ(said(creep, {.kind = effects, .effects = {"valve_lag"}}), "valve_lag") << "nothing in common";
+  EXPECT_EQ(said(creep, {.kind = numbers}), "other numbers, as far off as is stated");
+  found.verdict = diagnose::Verdict::cannot_tell;  // nothing was found that the other could be like
+  EXPECT_EQ(said(loads, creep), "bladder_creep");
+  EXPECT_EQ(explained_by(described), "bladder_creep on the rig as described");
 }
 
 TEST(DiagnosisTable, NamesAGaugeWhereNoCurrentDecides) {
