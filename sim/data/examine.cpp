@@ -306,6 +306,15 @@ Examined examine(const domain::Dataset& data, const std::vector<Expected>& expec
   return result;
 }
 
+std::string runs_that_would_help(const domain::Dataset& data) {
+  const domain::Judged judged = data.judged();
+  return std::string("at least four runs would help, with ") +
+         (judged == domain::Judged::force      ? "each its own length"
+          : judged == domain::Judged::pressure ? "other pressures, fast and slow"
+          : data.rig.pair() != nullptr         ? "each with other trajectories of the two pressures"
+                                               : "two loads and two kinds of current");
+}
+
 void require_enough(const domain::Dataset& data, const std::vector<bool>& left_out,
                     std::vector<Finding>& findings) {
   std::vector<double> loads_kg;
@@ -319,14 +328,8 @@ void require_enough(const domain::Dataset& data, const std::vector<bool>& left_o
                         .severity = Severity::unusable});
   else if (loads_kg.size() < of_readings.least_runs && !has_parts(data))
     findings.push_back(
-        {.message = fmt::format(
-             "{} usable run{}: too few to choose on some and test on others; at least four runs would help, "
-             "with {}.",
-             loads_kg.size(), loads_kg.size() == 1 ? "" : "s",
-             judged == domain::Judged::force      ? "each its own length"
-             : judged == domain::Judged::pressure ? "to other pressures, fast and slow"
-             : data.rig.pair() != nullptr         ? "each with other trajectories of the two pressures"
-                                                  : "two loads and two kinds of current"),
+        {.message = fmt::format("{} usable run{}: too few to choose on some and test on others; {}.",
+                                loads_kg.size(), loads_kg.size() == 1 ? "" : "s", runs_that_would_help(data)),
          .severity = Severity::undecidable});
   else if (judged == domain::Judged::contraction &&
            range(loads_kg) < of_readings.same_load * loads_kg.front())

@@ -44,6 +44,9 @@ Examined examine(const domain::Dataset& data, const std::vector<Expected>& expec
 void require_enough(const domain::Dataset& data, const std::vector<bool>& left_out,
                     std::vector<Finding>& findings);
 
+/// What would, where they are too few: "at least four runs would help, with two loads and ...".
+std::string runs_that_would_help(const domain::Dataset& data);
+
 /// Whether a run's readings are counts of an encoder.
 bool counts(const domain::Dataset& data, const domain::Run& run);
 

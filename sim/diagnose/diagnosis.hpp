@@ -302,7 +302,8 @@ struct Diagnosis {
   Ended ended = Ended::no;          ///< the search, before it was through
   double time_limit_s = 0.0;
   std::vector<std::string> not_done{};  ///< of it
-  std::string cannot_tell{};            ///< why data cannot decide, where that is known before
+  std::string cannot_tell{};            ///< why data cannot decide, where that is known
+  std::string to_measure{};             ///< what would decide then: "at least four runs would help, ..."
   bool contradicts_sheet = false;       ///< the answer needs parameters that the sheet all but rules out
   plant::Rig corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for

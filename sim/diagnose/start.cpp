@@ -21,6 +21,12 @@ double moved(const std::vector<double>& ratio) {
   return ratio.empty() ? 0.0 : *high - *low;
 }
 
+/// Of the first rows, those that count: of a later part of a run none do.
+double counted(const domain::Reading& judged, Eigen::Index rows) {
+  const auto begin = judged.missing.begin();
+  return static_cast<double>(judged.missing.empty() ? rows : std::count(begin, begin + rows, false));
+}
+
 }  // namespace
 
 Start look_at_start(const Experiment& experiment, const Rig& corrected, const Runs& runs) {
@@ -41,12 +47,16 @@ Start look_at_start(const Experiment& experiment, const Rig& corrected, const Ru
     const Eigen::VectorXd residuals =
         experiment.residuals(readings, run).head(static_cast<Eigen::Index>(readings.judged().size()));
     const Eigen::Index rows = std::min(first, residuals.size());
-    early += residuals.head(rows).squaredNorm() - static_cast<double>(rows);
-    all += residuals.squaredNorm() - static_cast<double>(residuals.size());
-    early_rows += static_cast<double>(rows);
-    all_rows += static_cast<double>(residuals.size());
     const auto& measured = experiment.data().runs[run];
-    if (experiment.data().recorded.start == domain::Start::settled && !measured.length_is_given() &&
+    const double of_early = counted(measured.judged(), rows),
+                 of_all = counted(measured.judged(), residuals.size());
+    early += residuals.head(rows).squaredNorm() - of_early;
+    all += residuals.squaredNorm() - of_all;
+    early_rows += of_early;
+    all_rows += of_all;
+    const auto looked_at = static_cast<Eigen::Index>(of_start.first_rows);
+    const bool begins = counted(measured.judged(), std::min(looked_at, residuals.size())) > 0.0;
+    if (begins && experiment.data().recorded.start == domain::Start::settled && !measured.length_is_given() &&
         moved(measured.judged().values) > limit + of_start.beyond_model * moved(readings.judged()))
       start.unsettled.push_back(measured.id);
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sim/data/examine.hpp>
 #include <sim/data/warnings.hpp>
 #include <sim/diagnose/candidate.hpp>
 #include <sim/diagnose/experiment.hpp>
@@ -125,8 +126,19 @@ class HandingOver {
 
   /// What the decision says, as far as the data and a search that was ended allow.
   Verdict verdict() {
+    Verdict said = usable_.cannot_tell.empty() ? verdict_of_search() : Verdict::cannot_tell;
     result_.cannot_tell = usable_.cannot_tell;
-    if (!result_.cannot_tell.empty()) return Verdict::cannot_tell;
+    const bool finds_no_effect = said == Verdict::nothing_missing || said == Verdict::recalibrate;
+    if (finds_no_effect && data_.parts_of_a_run) {  // one run shows an effect, but does not rule one out
+      said = Verdict::cannot_tell;
+      result_.cannot_tell = "No effect was found, but one run is too little to rule one out; " +
+                            data::runs_that_would_help(data_) + ".";
+    }
+    if (!result_.cannot_tell.empty()) result_.to_measure = data::runs_that_would_help(data_);
+    return said;
+  }
+
+  Verdict verdict_of_search() {
     const Verdict decided = of_the_rig(found_.decision.verdict);
     if (found_.ended != Ended::no && decided != Verdict::missing_effect) return Verdict::cannot_tell;
     const Model* parameters = found_.of(false);
@@ -144,7 +156,9 @@ class HandingOver {
     warn(
         fmt::format("these data would not show, even at their usual size: {}", fmt::join(seen.hidden, ", ")));
     const double most = diagnose::thresholds.tell.invisible * static_cast<double>(seen.all);
-    return static_cast<double>(seen.hidden.size()) > most ? Verdict::cannot_tell : decided;
+    if (static_cast<double>(seen.hidden.size()) <= most) return decided;
+    result_.to_measure = "runs of other kinds would help: other loads, and faster, slower and larger inputs";
+    return Verdict::cannot_tell;
   }
 
   /// The model whose rig is handed over: the chosen one, or one that a rig file can carry; the rig's

@@ -124,9 +124,8 @@ std::string next(const Diagnosis& diagnosis) {
 
 std::string table_of(const domain::Dataset& data, const Diagnosis& diagnosis) {
   const auto unseen = held_out(diagnosis);
-  std::string text = fmt::format("{}: {} run{}, {}; errors are {}\n", data.path.string(), data.runs.size(),
-                                 data.runs.size() == 1 ? "" : "s", held_out_in_words(diagnosis),
-                                 words_of(data.judged()).errors);
+  std::string text = fmt::format("{}: {}, {}; errors are {}\n", data.path.string(), runs_in_words(data),
+                                 held_out_in_words(diagnosis), words_of(data.judged()).errors);
   text += warnings(diagnosis);
   text += fmt::format("\n{}: {}\n", plant::name_of(diagnosis.verdict), title_of(diagnosis));
   if (!diagnosis.because.empty()) text += diagnosis.because + "\n";

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <tuple>
@@ -203,64 +202,6 @@ std::string title_of(const diagnose::Diagnosis& diagnosis) {
   return "These data do not decide";
 }
 
-std::string explained_by(const diagnose::Explanation& explanation) {
-  using enum diagnose::Explanation::Kind;
-  switch (explanation.kind) {
-    case nothing:
-      return explanation.effects.empty()
-                 ? "nothing: the rig as described"
-                 : fmt::format("{} on the rig as described", fmt::join(explanation.effects, " with "));
-    case numbers:
-      return "other numbers, as far off as is stated";
-    case further_numbers:
-      return "numbers further off than is stated";
-    case law:
-      return "a law of force";
-    case effects:
-      break;
-  }
-  return fmt::format("{}", fmt::join(explanation.effects, " with "));
-}
-
-namespace {
-
-/// What an explanation is made of, a law of force among it.
-std::vector<std::string> parts_of(const diagnose::Explanation& one) {
-  std::vector<std::string> parts = one.effects;
-  if (one.kind == diagnose::Explanation::Kind::law) parts.emplace_back("a law of force");
-  return parts;
-}
-
-/// Those that `others` lacks.
-std::vector<std::string> only_in(const std::vector<std::string>& parts,
-                                 const std::vector<std::string>& others) {
-  std::vector<std::string> only;
-  std::ranges::copy_if(parts, std::back_inserter(only), [&](const std::string& part) {
-    return std::ranges::find(others, part) == others.end();
-  });
-  return only;
-}
-
-}  // namespace
-
-std::string explained_as_well_by(const diagnose::Diagnosis& diagnosis,
-                                 const diagnose::Explanation& explanation) {
-  using enum diagnose::Explanation::Kind;
-  const auto chosen = std::ranges::find_if(diagnosis.explanations, &diagnose::Explanation::chosen);
-  if (chosen == diagnosis.explanations.end() || diagnosis.verdict == diagnose::Verdict::cannot_tell)
-    return explained_by(explanation);
-  const auto found = parts_of(*chosen), parts = parts_of(explanation);
-  const auto more = only_in(parts, found), less = only_in(found, parts);
-  if (less.size() == found.size()) return explained_by(explanation);  // nothing in common
-  if (!more.empty() && !less.empty())
-    return fmt::format("the same with {} in place of {}", listed(more), listed(less));
-  if (!more.empty()) return fmt::format("the same with {}", listed(more));
-  if (!less.empty()) return fmt::format("the same without {}", listed(less));
-  if (explanation.kind == nothing) return "the same on the rig as described";
-  return chosen->kind == nothing ? "the same with other values of the rig's parameters"
-                                 : explained_by(explanation);
-}
-
 std::string why_recalibrated_is_worse(const diagnose::Diagnosis& diagnosis) {
   // With a fault of the bench neither says anything; where nothing is missing, or the difference is within
   // noise, there is nothing to explain.
@@ -332,6 +273,7 @@ std::string what_next(const diagnose::Diagnosis& diagnosis) {
   using enum diagnose::Verdict;
   if (diagnosis.ended != diagnose::Ended::no)
     return "The search was stopped: let it finish before anything else is measured.";
+  if (!diagnosis.to_measure.empty()) return "These data do not decide: " + diagnosis.to_measure + ".";
   if (is_unexplained(diagnosis))
     return fmt::format(
         "On the runs held out {:.1f} times the noise floor remains, so something is still unexplained. "
@@ -349,7 +291,14 @@ std::string what_next(const diagnose::Diagnosis& diagnosis) {
     return "Check the numbers that moved most against a ruler or the data sheet.";
   if (diagnosis.verdict == unknown_effect && !diagnosis.law_valid_for.empty())
     return "Measure wherever the rig is to be used beyond what the law is valid for.";
-  return "";
+  return diagnosis.verdict == cannot_tell ? "These data do not decide, and no single run is known that would."
+                                          : "";
+}
+
+std::string runs_in_words(const domain::Dataset& data) {
+  const std::size_t runs = data.runs.size();
+  return data.parts_of_a_run ? fmt::format("1 run in {} parts", runs)
+                             : fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
 }
 
 std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis) {

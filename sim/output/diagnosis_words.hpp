@@ -86,6 +86,9 @@ std::string left_undecided(const diagnose::Diagnosis& diagnosis);
 /// is needed while noise floors remain unexplained.
 std::string what_next(const diagnose::Diagnosis& diagnosis);
 
+/// "6 runs", "1 run in 4 parts".
+std::string runs_in_words(const domain::Dataset& data);
+
 /// Ids of the runs held out.
 std::vector<std::string> held_out(const diagnose::Diagnosis& diagnosis);
 /// Every run that was used is held out in turn.

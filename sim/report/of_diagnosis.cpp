@@ -248,7 +248,7 @@ std::string report_html(const domain::Dataset& data, const Diagnosis& diagnosis,
   const bool pair = data.rig.pair() != nullptr;
   Contents contents{
       .title = "Diagnosis of " + output::name_of(data),
-      .about = fmt::format("{} run{}, {}", data.runs.size(), data.runs.size() == 1 ? "" : "s",
+      .about = fmt::format("{}, {}", output::runs_in_words(data),
                            output::each_is_held_out(diagnosis)
                                ? output::held_out_in_words(diagnosis)
                                : fmt::format("{} held out", output::held_out(diagnosis).size())),

@@ -58,6 +58,31 @@ TEST(Diagnose, WritesOverNothingThatItDidNotMake) {
   EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
 }
 
+/// One recorded run counts as one, though its parts are predicted from each other; two count as two.
+TEST(Diagnose, OfTooFewRunsRulesNoEffectOutAndPlansWhatTheVerdictAsksFor) {
+  const Scratch scratch;
+  const auto sine = [](const char* period) {
+    return fmt::format(
+        "  - {{name: p{0}, duration: 4.8 s, current: {{kind: sine_current, low: 0 mA, high: 20 mA, period: "
+        "2.{0} s}}}}\n",
+        period);
+  };
+  const std::string one =
+      "schema: mckibben-campaign/1\nrig: thesis\nloads: [11.138 kg]\ncurrents:\n" + sine("4");
+  write_text(scratch / "one.yaml", one);
+  write_text(scratch / "two.yaml", one + sine("9"));
+  for (const std::string runs : {"one", "two"}) {
+    ASSERT_EQ(mckibben("dataset " + runs + ".yaml --out " + runs, scratch).status, 0);
+    const Said said = mckibben("diagnose " + runs + " --plan plan.yaml", scratch);
+    ASSERT_EQ(said.status, 0) << said.err;
+    const std::string help = "at least four runs would help, with two loads and two kinds of current.";
+    EXPECT_TRUE(holds(said.out, "cannot_tell: These data do not decide", help));
+    EXPECT_TRUE(holds(said.err, "no plan written. These data do not decide: " + help));
+    EXPECT_TRUE(holds(said.out, runs == "one" ? ": 1 run in 4 parts, " : ": 2 runs, "));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "plan.yaml"));
+  }
+}
+
 /// Stamps of its own, jittered, in ms; a pressure up and down.
 std::string given_pressure(int run) {
   std::string table = "t,p,x\n";

@@ -1,6 +1,7 @@
 // Runs that do not begin settled: seen, and said.
 #include <gtest/gtest.h>
 
+#include <sim/data/parts.hpp>
 #include <sim/diagnose/start.hpp>
 
 #include "planted.hpp"
@@ -14,7 +15,7 @@ Start look(const domain::Dataset& data) {
   Runs runs;
   for (const auto& run : data.runs) {
     runs.push_back(masked.size());
-    masked.emplace_back(run.current_mA.size(), false);
+    masked.push_back(run.missing.empty() ? std::vector<bool>(run.current_mA.size(), false) : run.missing);
   }
   return look_at_start(Experiment(data, masked, 1), data.rig, runs);
 }
@@ -36,6 +37,19 @@ TEST(Start, IsASuspectWhereRunsBeginInMotion) {
   EXPECT_TRUE(holds(said, "in the first 1 s", "Not settled at the start", "start: moving"));
   EXPECT_TRUE(lacks(sentence_of(start, gap, domain::Start::moving), "settled"));
   EXPECT_EQ(sentence_of(start, {.noise_floor = 1e-3, .corrected_rmse = 1e-3}, domain::Start::settled), "");
+}
+
+TEST(Start, OfOneRunInPartsIsThatOfTheFirstPart) {
+  auto data = small(plant::Rig{});
+  data.runs.resize(1);
+  auto& late = data.runs.front();
+  constexpr std::ptrdiff_t lost = 40;
+  late.contraction_ratio.erase(late.contraction_ratio.begin(), late.contraction_ratio.begin() + lost);
+  late.current_mA.erase(late.current_mA.begin(), late.current_mA.begin() + lost);
+  const Start whole = look(data), parts = look(data::in_parts(data));
+  EXPECT_EQ(parts.unsettled, std::vector<std::string>{"r01-1"});
+  EXPECT_NEAR(parts.share_of_gap, whole.share_of_gap, 1e-3);
+  EXPECT_NEAR(parts.share_of_time, whole.share_of_time, 1e-9);
 }
 
 }  // namespace
