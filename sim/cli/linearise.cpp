@@ -37,8 +37,9 @@ struct LinearTask {
   std::vector<controllers::Settings> controllers;
 };
 
-[[noreturn]] void refuse(const std::string& file, const std::string& why) {
-  throw input::BadInput({{input::Severity::error, file, {}, why, ""}});
+/// Of a file, or of an option that is as bad as one.
+[[noreturn]] void refuse(const std::string& what, const std::string& why) {
+  throw input::BadInput({{input::Severity::error, what, input::nowhere, why, ""}});
 }
 
 bool is_scenario(const std::string& file) {
@@ -135,7 +136,8 @@ linear::Question question_of(const LineariseOptions& options, const plant::Rig& 
   if (options.valve == "venting") question.opening = linear::Opening::venting;
   if (options.swing_m_per_s > 0.0) question.swing_m_per_s = options.swing_m_per_s;
   if (!options.margins.empty())
-    question.margins = linear::Wanted{.phase_rad = positive_quantity(options.margins, "rad", 1.5)};
+    question.margins =
+        linear::Wanted{.phase_rad = positive_quantity("--margins", options.margins, "rad", 1.5)};
   if (!options.lqr.empty()) {
     const linear::Place one = place_of("--lqr", options.lqr, rig);
     if (one.of != linear::Place::Of::command || !(one.value > 0.0))
@@ -165,12 +167,16 @@ int linearise(const LineariseOptions& options) {
   }
   Job job(options, "linearise " + options.file, all.name + "-linearise", all.files);
   for (const double load_kg : task.loads_kg)
-    for (const linear::Place& place : all.question.places) {
+    for (std::size_t i = 0; i < all.question.places.size(); ++i) {
+      const linear::Place& place = all.question.places[i];
       if (const std::string why = all.rig.pair() ? "" : domain::too_heavy(load_kg, all.rig); !why.empty())
-        refuse(options.file, fmt::format("{:g} kg: {}", load_kg, why));
+        refuse(options.loads_kg.empty() ? options.file : "--load", fmt::format("{:g} kg: {}", load_kg, why));
       try {
         all.studies.push_back(
             linear::study(loaded(task, load_kg), load_kg, place, all.question, task.controllers));
+      } catch (const linear::OutOfReach& why) {
+        refuse(options.places.empty() ? options.file : "--at " + options.places[i],
+               fmt::format("with {:g} kg: {}", load_kg, why.what()));
       } catch (const std::invalid_argument& why) {
         refuse(options.file, fmt::format("with {:g} kg: {}", load_kg, why.what()));
       } catch (const engine::NumericalFailure& why) {
@@ -236,9 +242,10 @@ void add_linearise(CLI::App& app, Asked& asked) {
       "  mckibben linearise thesis --at \"10 mA\" --load \"11 kg\"\n"
       "  mckibben linearise scenarios/five_loads.yaml --at 0.15 --margins \"60 deg\"\n"
       "  mckibben linearise thesis --at \"2 bar\" --friction sticking --lqr \"1 mA\"\n"
-      "Writes linearise.json, table.txt, a Bode plot (bode.svg, bode.csv), and the systems for "
-      "python-control\n"
-      "(linearise.py) and MATLAB (linearise.m).\n");
+      "Writes linearise.json, table.txt, a Bode plot (bode.svg, bode.csv; of several places or "
+      "loads\n"
+      "bode_1.svg, bode_1.csv and so on), and the systems for python-control (linearise.py) and MATLAB\n"
+      "(linearise.m).\n");
 }
 
 }  // namespace mckibben::cli

@@ -99,7 +99,7 @@ void add_measured(CLI::App& verb, std::string& path) {
 
 void add_loads(CLI::App& verb, std::vector<double>& loads_kg, const std::string& example) {
   const auto read = [&loads_kg](const std::vector<std::string>& texts) {
-    for (const auto& text : texts) loads_kg.push_back(positive_quantity(text, "kg", 500.0));
+    for (const auto& text : texts) loads_kg.push_back(positive_quantity("--load", text, "kg", 500.0));
   };
   verb.add_option_function<std::vector<std::string>>("--load", read, "Load such as " + example)
       ->allow_extra_args(false)
@@ -126,16 +126,16 @@ CLI::Validator from_to(double lowest, double highest) {
   return {check, ""};
 }
 
-double positive_quantity(const std::string& text, const char* unit, double most) {
+double positive_quantity(const std::string& option, const std::string& text, const char* unit, double most) {
   double value = 0.0;
   try {
     value = input::read_quantity(text, unit);
   } catch (const input::BadQuantity& error) {
-    throw CLI::ValidationError(error.what());
+    throw CLI::ValidationError(fmt::format("{}: {}", option, error.what()));
   }
   if (value > 0.0 && value <= most) return value;
   throw CLI::ValidationError(
-      fmt::format("{} must be above 0 and at most {}", text, input::write_quantity(most, unit)));
+      fmt::format("{}: {} must be above 0 and at most {}", option, text, input::write_quantity(most, unit)));
 }
 
 std::vector<std::string> names_of(const CLI::Option& option) {

@@ -57,8 +57,9 @@ CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& w
 /// A number within these limits; anything else is a usage error that names them.
 CLI::Validator from_to(double lowest, double highest);
 
-/// A quantity such as "8.87 kg", above 0 and up to `most`; what is wrong with it is a usage error.
-double positive_quantity(const std::string& text, const char* unit, double most);
+/// A quantity such as "8.87 kg", above 0 and up to `most`; what is wrong with it is a usage error that names
+/// the option.
+double positive_quantity(const std::string& option, const std::string& text, const char* unit, double most);
 
 /// An option that is such a number.
 void add_number(CLI::App& verb, const char* name, auto& value, double lowest, double highest,
@@ -69,8 +70,8 @@ void add_number(CLI::App& verb, const char* name, auto& value, double lowest, do
 /// An option that is such a quantity.
 void add_quantity(CLI::App& verb, const char* name, auto& value, const char* unit, double most,
                   const char* what, const char* type) {
-  const auto read = [&value, unit, most](const std::string& text) {
-    value = positive_quantity(text, unit, most);
+  const auto read = [&value, option = std::string(name), unit, most](const std::string& text) {
+    value = positive_quantity(option, text, unit, most);
   };
   verb.add_option_function<std::string>(name, read, what)->type_name(type);
 }

@@ -206,8 +206,8 @@ double command_for(const plant::Rig& rig, double load_kg, double value, const ch
   double low = range.lowest_mA, high = range.highest_mA;
   const double lowest = reached(low), highest = reached(high);
   if (!(lowest <= value && value <= highest))
-    throw std::invalid_argument(fmt::format("{} {:.4g} is out of reach: commands give {:.4g} to {:.4g}",
-                                            named, value, lowest, highest));
+    throw OutOfReach(fmt::format("{} {:.4g} is out of reach: commands give {:.4g} to {:.4g}", named, value,
+                                 lowest, highest));
   for (int i = 0; i < 36; ++i) {
     const double middle = 0.5 * (low + high);
     (reached(middle) < value ? low : high) = middle;
@@ -222,9 +222,9 @@ double command_at(const plant::Rig& rig, double load_kg, const Place& place) {
       return 0.5 * (range.lowest_mA + range.highest_mA);
     case Place::Of::command:
       if (place.value < range.lowest_mA || place.value > range.highest_mA)
-        throw std::invalid_argument(
-            fmt::format("the valve answers to commands from {:g} to {:g} {}, not to {:g}", range.lowest_mA,
-                        range.highest_mA, name_of(rig.command_unit()), place.value));
+        throw OutOfReach(fmt::format("the valve answers to commands from {:g} to {:g} {}, not to {:g}",
+                                     range.lowest_mA, range.highest_mA, name_of(rig.command_unit()),
+                                     place.value));
       return place.value;
     case Place::Of::pressure:
       return command_for(rig, load_kg, place.value, "a muscle pressure [Pa] of",

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <stdexcept>
 
 #include <controllers/controller.hpp>
 #include <plant/rig.hpp>
@@ -53,7 +54,12 @@ struct Point {
 /// below the middle of the valves' lines as the first is above it.
 controllers::Command commands_of(const plant::Rig& rig, double current_mA);
 
-/// Settles there from rest, as a run does. Throws std::invalid_argument where the rig has no such place or no
+/// The rig has no such place.
+struct OutOfReach : std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Settles there from rest, as a run does. Throws OutOfReach, std::invalid_argument where the rig has no
 /// slopes, NumericalFailure.
 Point point_at(const plant::Rig& rig, double load_kg, const Place& place, Threads threads, Opening opening);
 

@@ -15,7 +15,12 @@
 namespace mckibben::linear {
 namespace {
 
-std::vector<Complex> sorted(std::vector<Complex> values) {
+constexpr double rounding = 1e-12;
+
+/// Those that the arithmetic does not resolve beside the system's largest pole are 0.
+std::vector<Complex> sorted(std::vector<Complex> values, double largest) {
+  for (Complex& value : values)
+    if (std::abs(value) <= rounding * largest) value = 0.0;
   std::sort(values.begin(), values.end(), [](const Complex& a, const Complex& b) {
     const double one = std::abs(a), two = std::abs(b);
     if (std::abs(one - two) > 1e-9 * (one + two)) return one < two;
@@ -47,13 +52,12 @@ Flown flown(const System& system, double time_s) {
 
 std::vector<Complex> poles(const System& system) {
   const Eigen::VectorXcd values = system.A.eigenvalues();
-  return sorted({values.begin(), values.end()});
+  return sorted({values.begin(), values.end()}, values.cwiseAbs().maxCoeff());
 }
 
 // Inputs that keep the output at 0 also keep its first r - 1 derivatives there, which have no input in them.
 // What moves then moves in the kernel of all of these.
 std::vector<Complex> zeros(const System& system) {
-  constexpr double rounding = 1e-12;
   const Eigen::Index n = system.states();
   const Eigen::VectorXd input = system.B.col(0);
   Matrix still(n, n);
@@ -67,7 +71,7 @@ std::vector<Complex> zeros(const System& system) {
     const Matrix kernel = turned.rightCols(n - r);
     if (n == r) return {};
     const Eigen::VectorXcd values = (kernel.transpose() * held * kernel).eval().eigenvalues();
-    return sorted({values.begin(), values.end()});
+    return sorted({values.begin(), values.end()}, system.A.eigenvalues().cwiseAbs().maxCoeff());
   }
   return {};
 }

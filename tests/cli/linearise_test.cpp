@@ -191,6 +191,35 @@ TEST_F(Linearise, SaysWhatItCannotDo) {
   EXPECT_TRUE(holds(run("linearise thesis --at 15").err,
                     "--at 15: no contraction ratio is as large; did you mean \"15 mA\"?"));
   EXPECT_TRUE(holds(run("linearise thesis --lqr 0.1").err, "--lqr 0.1: a command is wanted, as \"1 mA\""));
+  EXPECT_TRUE(holds(run("linearise thesis --margins 60").err,
+                    "--margins: 60 has no unit; it is measured in rad: for example 60 deg"));
+  EXPECT_TRUE(holds(run("linearise thesis --load 11").err, "--load: 11 has no unit; it is measured in kg"));
+  EXPECT_TRUE(holds(run("linearise thesis --load '500 g' --load '501 kg'").err,
+                    "--load: 501 kg must be above 0 and at most 500 kg"));
+}
+
+/// The rig's file has no error in it.
+TEST_F(Linearise, PlacesOutOfReachAreTheOptions) {
+  const Said said = run("linearise thesis --at '30 mA'");
+  EXPECT_EQ(said.status, 65);
+  EXPECT_TRUE(holds(said.err, "--at 30 mA: error: with ", "the valve answers to commands from 4 to 20 mA"));
+  EXPECT_TRUE(lacks(said.err, "thesis:1:1"));
+  EXPECT_TRUE(holds(run("linearise thesis --load '400 kg'").err, "--load: error: 400 kg: "));
+}
+
+TEST_F(Linearise, HelpAndFolderAgreeOnBodePlotsOfSeveralPlaces) {
+  EXPECT_TRUE(
+      holds(run("linearise --help").out, "(bode.svg, bode.csv; of several", "bode_1.svg, bode_1.csv"));
+}
+
+/// bladder_hysteresis keeps its tension at rest.
+TEST_F(Linearise, AMemoryThatHoldsIsAPoleAtZero) {
+  write_text(
+      scratch / "rig.yaml",
+      "schema: mckibben-rig/1\nbase: thesis\neffects: {bladder_hysteresis: {force: 5 N, stroke: 8 mm}}\n");
+  const Said said = run("linearise rig.yaml");
+  EXPECT_TRUE(holds(said.out, "  pole  0 ", " 0 Hz\n")) << said.err;
+  EXPECT_TRUE(lacks(said.out, "e-13", "e-14", "e-15", "e-16"));
 }
 
 /// Where names take several rows, the panels and their headings stand below them.

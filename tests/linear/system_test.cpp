@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <sim/linear/system.hpp>
@@ -35,6 +36,23 @@ TEST(System, HasThePolesZerosAndGainsOfItsFraction) {
   EXPECT_NEAR(gain_at_rest(swinging()), 0.6, 1e-6);
   const Complex s(0.0, 1.7);
   EXPECT_NEAR(std::abs(response(swinging(), 1.7) - (s + 3.0) / (s * s + 2.0 * s + 5.0)), 0.0, 1e-12);
+}
+
+/// A memory that holds has a pole and a zero at 0, which the eigenvalues of turned axes are only nearly.
+TEST(System, HasAPoleAndAZeroAtZeroWhereNothingLessIsResolved) {
+  System one{Matrix::Zero(4, 4), Matrix::Zero(4, 1), Matrix::Zero(1, 4), Matrix::Zero(1, 1)};
+  one.A.topLeftCorner(2, 2) = swinging().A;
+  one.A(2, 3) = 1000.0;
+  one.A(3, 3) = -1000.0;
+  one.B << 0.0, 1.0, 0.0, 1.0;
+  one.C << 3.0, 1.0, 0.5, 0.0;
+  Matrix axes(4, 4);
+  axes << 1.0, 0.3, -0.2, 0.7, 0.1, 1.0, 0.4, -0.6, 0.5, -0.3, 1.0, 0.2, -0.4, 0.8, 0.6, 1.0;
+  one = {axes * one.A * axes.inverse(), axes * one.B, one.C * axes.inverse(), one.D};
+  EXPECT_EQ(poles(one).front(), Complex(0.0));
+  const System pure = in_series(one, lag(1.0));
+  EXPECT_EQ(poles(pure).front(), Complex(0.0));
+  for (const Complex& zero : zeros(one)) EXPECT_TRUE(zero == Complex(0.0) || std::abs(zero) > 1e-6) << zero;
 }
 
 /// However many poles there are more than zeros, none comes from far away.
