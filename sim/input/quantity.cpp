@@ -248,10 +248,12 @@ std::string_view if_a_duty(std::string_view unit, std::string_view si_unit) {
          "(ports: 3/2: 0 % is zero_command); zero_command: -100 V, span_command: 100 V make 1 V of 1 %";
 }
 
-/// To a number that must have none: of a length the contraction ratio may be meant.
+/// To a number that must have none: of a length its share of the muscle's may be meant.
 std::string without_unit(double value, std::string_view number, std::string_view unit) {
   if (convert({&value, 1}, unit, "m") != Fit::fits) return fmt::format(": for example {}", number);
-  return fmt::format("; a contraction ratio is a length over rest_length, of 250 mm {:.3g}", value / 0.25);
+  return fmt::format(
+      "; as a contraction ratio it is the length divided by rest_length: {:.3g} if that is 250 mm",
+      value / 0.25);
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TimeGuess time_of(const UnknownTable& table) {
       found.guess = ColumnGuess{&domain::quantity_of("time"),
                                 left_open(fmt::format("{} holds what is read as no number, such as {}",
                                                       column.name, column.texts.front())),
-                                left_open("it goes with the column"),
+                                left_open("the unit of the column that you write"),
                                 {},
                                 {},
                                 {},
@@ -222,7 +222,7 @@ TimeGuess time_of(const UnknownTable& table) {
   std::vector<std::string> names;
   for (const auto& [column, words] : candidates) names.push_back(column->name);
   found.guess->column = left_open(fmt::format("it may be any of: {}", fmt::join(names, "; ")));
-  found.guess->unit = left_open("it goes with the column");
+  found.guess->unit = left_open("the unit of the column that you write");
   return found;
 }
 

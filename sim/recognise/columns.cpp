@@ -96,7 +96,7 @@ ColumnGuess guess_of(const domain::Quantity& quantity, const std::vector<const N
                                             names.size() == 2 ? of_two(quantity, duties) : std::string())
                           : others.empty() ? "no column seems to hold it"
                                            : "no heading names it; perhaps one of: " + others;
-  return {&quantity, left_open(why), left_open("it goes with the column"), {}, {}, {}, {}};
+  return {&quantity, left_open(why), left_open("the unit of the column that you write"), {}, {}, {}, {}};
 }
 
 /// Whether a bench holds the muscle at a length in each table.

@@ -84,7 +84,8 @@ std::string of_two(const domain::Quantity& quantity, bool duties) {
 
 void unit_of_either_duty(ColumnGuess& command, const KnownRig& rig) {
   if (rig.valve && rig.valve->is_on_off())
-    command.unit = left_open("it goes with the column; of a duty, " + Share(*rig.valve).either());
+    command.unit =
+        left_open("the unit of the column that you write; of a duty, " + Share(*rig.valve).either());
 }
 
 std::vector<Setting> valve_of_duties(const MapGuess& map, const UnknownTable& table) {

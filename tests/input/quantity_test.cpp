@@ -144,8 +144,8 @@ TEST(Quantity, SayWhatIsWrong) {
   EXPECT_EQ(of_radius("0.008 N"), "0.008 N: N is the wrong kind of unit; wanted is m: for example 7.5 mm");
   EXPECT_EQ(problem_of("1.3 s", "1"), "1.3 s must be a bare number, without a unit: for example 1.3");
   EXPECT_EQ(problem_of("1.3 mm", "1"),
-            "1.3 mm must be a bare number, without a unit; a contraction ratio is a length over rest_length, "
-            "of 250 mm 0.0052");
+            "1.3 mm must be a bare number, without a unit; as a contraction ratio it is the length "
+            "divided by rest_length: 0.0052 if that is 250 mm");
   EXPECT_NE(problem_of("-100 %", "mA").find("zero_command: -100 V, span_command: 100 V"), std::string::npos);
   EXPECT_EQ(problem_of("010 mm", "m"), "010 mm is not a number: it must not begin with 0");
   EXPECT_EQ(problem_of("0,3 m", "m"), "0,3 m is not a number: the decimal sign is a point");

@@ -189,6 +189,7 @@ TEST_F(Asked, WhatSomethingReadsIsNoCommand) {
     const Recognised found = of(head, row);
     EXPECT_TRUE(column(found, "command").column.open()) << head;
     EXPECT_TRUE(holds(column(found, "command").column.reason, "perhaps one of")) << head;
+    EXPECT_EQ(column(found, "command").unit.reason, "the unit of the column that you write") << head;
   }
 }
 
