@@ -27,6 +27,19 @@ constexpr std::size_t longest_line = 1024;
 
 }  // namespace
 
+std::string unusual_stage(const plant::Rig& rig) {
+  constexpr double of_sketch_mA = 20.0;
+  const auto unit = name_of(rig.command_unit());
+  const double lowest = rig.dac.lowest_command, largest = rig.dac.largest_command;
+  if (rig.command_unit() == plant::CommandUnit::mA && lowest >= 0.0 && largest <= of_sketch_mA) return "";
+  return fmt::format(
+      "the sketch in scenarios/bench_serial drives a stage of 0 to {:g} mA: write unit[] = \"{}\" and "
+      "largest_command = {:g} in it, and use a stage that makes 0 to {:g} {} of its output{}",
+      of_sketch_mA, unit, largest, largest, unit,
+      lowest < 0.0 ? fmt::format("; it gives nothing below 0: for {:g} {} change put(), too", lowest, unit)
+                   : "");
+}
+
 Serial::Serial(const std::string& port, const plant::Rig& rig) : port_(port), tick_s_(rig.tick_s) {
   line_ = open(port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   termios how{};

@@ -18,6 +18,9 @@
 
 namespace mckibben::bench {
 
+/// What to change in the shipped sketch and its stage for this rig's commands; empty where nothing.
+std::string unusual_stage(const plant::Rig& rig);
+
 class Serial final : public Device {
  public:
   /// Opens the port and greets. Throws DeviceFailure, also if the user stops meanwhile.

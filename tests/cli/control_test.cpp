@@ -230,7 +230,15 @@ TEST(Control, ADryRunWarnsOfVoltagesThatHardlyAnyBoardGives) {
   EXPECT_TRUE(holds(mckibben(dry + "comedi --port /dev/comedi0", scratch).err,
                     "warning: the rig's dac gives -100 to 100 V, and most boards -10 to 10 V at most: write "
                     "dac: {lowest_command: -10 V, largest_command: 10 V}"));
-  EXPECT_TRUE(lacks(mckibben(dry + "serial --port /nowhere", scratch).err, "most boards"));
+  const std::string serial = mckibben(dry + "serial --port /nowhere", scratch).err;
+  EXPECT_TRUE(lacks(serial, "most boards"));
+  EXPECT_TRUE(holds(serial,
+                    "warning: the sketch in scenarios/bench_serial drives a stage of 0 to 20 mA: write "
+                    "unit[] = \"V\" and largest_command = 100 in it, and use a stage that makes 0 to "
+                    "100 V",
+                    "for -100 V change put()"));
+  write_text(scratch / "b.yaml", on_bench);
+  EXPECT_TRUE(lacks(mckibben(dry + "serial --port /nowhere", scratch).err, "warning"));
 }
 
 TEST(Control, WhatEndsBeforeTheFirstTickLeavesNoDataSet) {
