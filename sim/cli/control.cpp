@@ -357,9 +357,8 @@ int control(const ControlOptions& options) {
   auto controller = briefing.make(briefing.settings.front(), 0, scenario.loads_kg.front());
   const bench::LoopPlan plan = loop_of(scenario, briefing, options);
   if (!options.dry_run) return on_bench(options, scenario, briefing, std::move(controller), plan);
-  const std::string why = options.device == "comedi"   ? bench::unusual_range(options.wiring, scenario.rig)
-                          : options.device == "serial" ? bench::unusual_stage(scenario.rig)
-                                                       : "";
+  std::string why = options.device == "serial" ? bench::unusual_stage(scenario.rig) : "";
+  if (options.device == "comedi") why = bench::unusual_range(options.wiring, scenario.rig);
   if (!why.empty()) say("warning: " + why);
   bench::PatientClock clock;
   return show(options, scenario,
