@@ -11,6 +11,7 @@
 #include <sim/input/common_checks.hpp>
 #include <sim/input/dataset_file.hpp>
 #include <sim/input/scenario_file.hpp>
+#include <sim/input/yaml_writer.hpp>
 #include <sim/python/dicts.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/python/pickles.hpp>
@@ -200,6 +201,9 @@ void add_inputs(py::module_& module) {
           "to_dict", [](const Rig& rig) { return from_json(fields_of(rig.file)); },
           "Every field, as a rig file has it: quantities with their units. Reads back to the same bits.")
       .def(
+          "to_yaml", [](const Rig& rig) { return input::to_yaml(input::rig_json(rig.file)); },
+          "The same as the text of a rig file.")
+      .def(
           "dac_output",
           [](const Rig& rig, double wanted) { return plant::dac_output_mA(rig.file.dac, wanted); },
           py::arg("wanted"), "The command as the rig's DAC gives it.")
@@ -253,6 +257,20 @@ void add_inputs(py::module_& module) {
                                   valve.span_command);
           },
           "The same of a valve that takes mA.")
+      .def(
+          "_beyond_e_max",
+          [](const Rig& rig, double ratio) {
+            const plant::Pair* const pair = rig.file.pair();
+            const auto impossible = [](const plant::Muscle& muscle, double at) {
+              return plant::danger_of(muscle, at) == plant::Danger::impossible;
+            };
+            if (impossible(rig.file.muscle, ratio)) return true;
+            if (pair == nullptr) return false;
+            const plant::Muscle& two = pair->opposite.muscle;  // pays out what the first pulls in
+            const double way_m = (ratio - pair->contraction_ratio) * rig.file.muscle.rest_length_m;
+            return impossible(two, pair->opposite_contraction_ratio - way_m / two.rest_length_m);
+          },
+          py::arg("contraction_ratio"))
       .def(
           "_load_within",
           [](const Rig& rig, double load_kg, const std::string& name) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include <plant/geometry.hpp>
 #include <sim/output/replay_results.hpp>
 #include <sim/output/run_results.hpp>
 #include <sim/python/dicts.hpp>
@@ -45,6 +46,15 @@ std::vector<std::pair<std::string, std::optional<double>>> metrics_of(const run:
           {in_unit(commands, "at_highest_current"), m.at_highest_current}};
 }
 
+/// As the table has it: a run that went where no real muscle can.
+void add_impossible(std::vector<std::string>& warnings, const plant::Rig& rig,
+                    const run::Recording& recording, const std::string& who) {
+  const double reached = recording.largest_contraction_ratio;
+  if (plant::danger_of(rig.muscle, reached) != plant::Danger::impossible) return;
+  const std::string line = output::contraction_note(rig, reached, who);
+  warnings.push_back(line.substr(2, line.size() - 3));  // without its indent and its end
+}
+
 Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::uint64_t> seed,
                     const py::object& progress) {
   struct Whole {
@@ -62,6 +72,7 @@ Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::
                 [whole] { return output::json_of(whole->scenario, whole->comparison); },
                 [whole] { return report::report_html(whole->scenario, whole->comparison); }};
   for (const run::TrackedRun& run : whole->comparison.runs) {
+    add_impossible(result.warnings, whole->scenario.rig, run.recording, run.name);
     std::shared_ptr<const std::vector<double>> target;
     if (run.followed()) target = {whole, &whole->comparison.targets[run.target].values};
     const auto channels = plant::channels_of(whole->scenario.rig, run.recording.driven);
@@ -92,6 +103,7 @@ Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned th
                 [whole] { return output::json_of(whole->data, whole->runs, whole->warnings); },
                 [whole] { return report::report_html(whole->data, whole->runs, whole->warnings); }};
   for (const run::ReplayedRun& run : whole->runs) {
+    add_impossible(result.warnings, whole->data.rig, run.recording, run.id);
     const auto one = std::make_shared<Simulated>(Simulated{
         part_of(whole, run.recording), plant::channels_of(whole->data.rig, run.recording.driven), run.id});
     one->failure = run.failure;

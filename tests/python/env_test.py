@@ -312,7 +312,7 @@ class VectorEnv(unittest.TestCase):
         same_step = mckibben.VectorEnv(2, duration_s=0.12, autoreset_mode=mode.SAME_STEP)
         begun, _, _, _, infos = until_ended(same_step)
         self.assertTrue(infos["_final_obs"].all() and infos["_final_info"].all())
-        self.assertEqual({key for key in infos["final_info"] if key[0] != "_"}, {"current_mA", "true_contraction_ratio", "time_s"})
+        self.assertEqual({key for key in infos["final_info"] if key[0] != "_"}, {"current_mA", "true_contraction_ratio", "beyond_e_max", "time_s"})
         self.assertEqual(infos["final_info"]["time_s"].tolist(), [0.108, 0.108])
         self.assertEqual((infos["time_s"].tolist(), infos["_current_mA"].any()), ([0.0, 0.0], False))
         numpy.testing.assert_array_equal(infos["final_obs"][0], last[0])

@@ -82,6 +82,45 @@ class Episodes(unittest.TestCase):
         self.assertEqual(env.history["reward"].tolist(), rewards)
         self.assertLess(max(rewards), -2.4)
 
+    def test_histories_of_many_have_the_rewards_of_a_subclass(self):
+        class Gentle(mckibben.VectorEnv):
+            def step(self, actions):
+                seen, rewards, *rest = super().step(actions)
+                return seen, rewards - 500.0, *rest
+
+        for mode in mckibben.AutoresetMode:
+            with self.subTest(mode=mode):
+                many = Gentle(2, duration_s=0.12, autoreset_mode=mode)
+                many.reset(seed=1)
+                episodes, rewards = list(many.episodes), []
+                while len(episodes[0].rows) < len(episodes[0].wanted) - 1:
+                    rewards.append(many.step(numpy.zeros((2, 1)))[1])
+                for one, own in zip(episodes, numpy.transpose(rewards)):
+                    self.assertEqual(one.history["reward"].tolist(), own.tolist())
+                self.assertLess(numpy.max(rewards), -490.0)
+                if mode != mckibben.AutoresetMode.DISABLED:
+                    many.step(numpy.zeros((2, 1)))
+                    self.assertEqual(len(episodes[0].rows), len(rewards))
+
+    def test_says_where_a_muscle_is_shorter_than_one_can_be(self):
+        full = {"loads_kg": 11.0, "duration_s": 2.4}
+        one, many = mckibben.Env(**full), mckibben.VectorEnv(2, **full)
+        one.reset(seed=1)
+        many.reset(seed=1)
+        e_max, seen = one.rig.largest_contraction_ratio, []
+        for _ in range(190):
+            info, infos = one.step([1.0])[4], many.step(numpy.ones((2, 1)))[4]
+            self.assertEqual(info["beyond_e_max"], info["true_contraction_ratio"] > e_max)
+            self.assertEqual(infos["beyond_e_max"].tolist(), (infos["true_contraction_ratio"] > e_max).tolist())
+            seen.append(info["beyond_e_max"])
+        self.assertEqual({True, False}, set(seen))
+        pair = mckibben.Env("thesis_pair", duration_s=0.6)
+        pair.reset(seed=1)
+        self.assertIs(pair.step([0.0, 0.0])[4]["beyond_e_max"], False)
+        rig, e_max = pair.rig, pair.rig.largest_contraction_ratio
+        self.assertTrue(rig._beyond_e_max(e_max + 0.01))
+        self.assertTrue(rig._beyond_e_max(0.2 - e_max - 0.01), "muscle 2, mounted at 0.1 as the first")
+
     def test_others_can_have_its_target(self):
         for keys, controller in (({"rig": mckibben.env.drawn_rig, "target": mckibben.env.drawn_target}, {"kind": "pid"}),
                                  ({"rig": "thesis_pair"}, {"kind": "pid"})):

@@ -26,6 +26,11 @@ class Rigs(unittest.TestCase):
         self.assertNotEqual(thesis, other)
         self.assertTrue(mckibben.Rig("thesis_pair").pair)
         self.assertEqual(mckibben.Rig("thesis_pair"), mckibben.Rig(mckibben.Rig("thesis_pair").to_dict()))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "rig.yaml"
+            for name in ("thesis", "thesis_pair"):
+                path.write_text(mckibben.Rig(name).to_yaml())
+                self.assertEqual(mckibben.Rig(name), mckibben.Rig(path))
 
     def test_what_is_wrong_in_a_dict_is_told_with_its_path_value_and_rule(self):
         with self.assertRaises(mckibben.InputError) as caught:
@@ -130,6 +135,16 @@ class Scenarios(unittest.TestCase):
             warnings.simplefilter("error")
             with self.assertRaises(mckibben.InputWarning):
                 mckibben.Scenario({**SCENARIO, "noise": {"gauge": "1 mbar"}})
+
+    def test_warnings_point_at_who_wrote_it(self):
+        env = mckibben.Env(duration_s=0.6, loads_kg=11.0)
+        env.reset(seed=1)
+        for warned in (lambda: mckibben.Scenario({**SCENARIO, "noise": {"gauge": "1 mbar"}}),
+                       lambda: env.scenario([{"kind": "pid"}], noise={"gauge": "1 mbar"}),
+                       lambda: mckibben.Rig().run(**{**SCENARIO, "noise": {"gauge": "1 mbar"}})):
+            with self.assertWarns(mckibben.InputWarning) as caught:
+                warned()
+            self.assertEqual(caught.filename, __file__)
 
 
 class Datasets(unittest.TestCase):

@@ -36,6 +36,14 @@ class Runs(unittest.TestCase):
             with self.assertRaisesRegex(TypeError, r"^run\[.*\]: must be the name of a column, such as run\['time_s'\]"):
                 run[index]
 
+    def test_warn_of_contractions_beyond_what_a_muscle_can(self):
+        self.assertEqual(self.result.warnings, [])
+        full = {"kind": "stair_current", "low": "4 mA", "high": "20 mA", "steps": 1, "dwell": "1 s"}
+        result = mckibben.Scenario({**SCENARIO, "loads": ["1 kg", "11 kg"], "controllers": [full], "duration": "2 s"}).run()
+        self.assertRegex(result.warnings[0], r"^11kg_\S+: contraction ratio 0\.\d+ is above e_max = 0\.\d+: impossible for a "
+                                             r"real muscle \(T 2\.3\)$")
+        self.assertEqual(len(result.warnings), 1, "the light load stays below")
+
     def test_runs_are_a_sequence(self):
         self.assertEqual([run.name for run in self.result[1:]], [self.result[1].name])
         self.assertEqual([run.name for run in self.result], [run.name for run in self.result.runs])

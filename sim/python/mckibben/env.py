@@ -50,6 +50,19 @@ def _rewarded(step):
     return own
 
 
+def _all_rewarded(step):
+    """The same of many: of the episodes that moved, which may have ended and made room for others."""
+    @functools.wraps(step)
+    def own(self, *args, **keys):
+        before = [(one, len(one.rows) if one else 0) for one in self.episodes]
+        result = step(self, *args, **keys)
+        for (one, rows), reward in zip(before, result[1]):
+            if len(one.rows) > rows:
+                one.rewarded(reward)
+        return result
+    return own
+
+
 class Env(Base):
     """Follow a target with an unknown load: an episode is one run.
 
@@ -141,7 +154,8 @@ class Env(Base):
 
     def step(self, action):
         """A tick: (observation, reward, terminated, truncated, info). info has commands, time_s, and
-        true_contraction_ratio or, of a pair, true_angle_rad: what is read, before it is counted."""
+        true_contraction_ratio or, of a pair, true_angle_rad: what is read, before it is counted; beyond_e_max:
+        whether a muscle is shorter than a real one can be."""
         if self.ride is None:
             raise RuntimeError("reset comes before the first step")
         if self.ended:
@@ -216,6 +230,11 @@ class VectorEnv(VectorBase):
         self.random = [numpy.random.default_rng() for _ in self.episodes]
         self.ended = numpy.zeros(self.num_envs, dtype=bool)
 
+    def __init_subclass__(cls, **keys):
+        super().__init_subclass__(**keys)
+        if "step" in vars(cls):
+            cls.step = _all_rewarded(cls.step)
+
     def _many(self, space):
         low, high = (numpy.repeat(end[None], self.num_envs, axis=0) for end in (space.low, space.high))
         return Box(low, high, dtype=numpy.float32)
@@ -273,7 +292,9 @@ class VectorEnv(VectorBase):
             failed = [i for i in moved if i in failures]
             terminations[failed] = True
             name, = self.task.command_names(self.episodes[0].rig.command_unit)
-            self._note(infos, moved, {name: commands[moved], "true_contraction_ratio": self.batch.state[moved, 0],
+            true = self.batch.state[moved, 0]
+            self._note(infos, moved, {name: commands[moved], "true_contraction_ratio": true,
+                                      "beyond_e_max": true > [self.episodes[i].e_max for i in moved],
                                       "time_s": numpy.array([self.episodes[i].tick * self.episodes[i].tick_s for i in moved])})
             self._note(infos, failed, {"failure": [failures[i] for i in failed]})
         self.ended = terminations | truncations

@@ -194,6 +194,7 @@ class Episode:
         self.rig, self.load_kg, self.wish, self.target = task.draw(random, options)
         self.wanted, self.tick_s = self.target.tolist(), self.rig.tick_s
         self.ranges = [self.rig.command_range, self.rig.opposite_command_range][:2 if task.pair else 1]
+        self.e_max = self.rig.largest_contraction_ratio
         self.tick, self.action, self.last = 0, [-1.0] * len(self.ranges), 0.0
         if task.pair:  # the contraction ratio of the first muscle at 0 rad, and the angle that one of 1 more turns
             keys = self.rig.to_dict()
@@ -241,11 +242,12 @@ class Episode:
         return {"id": id, "rig": self.rig, **load, **self.columns(), "data": data}
 
     def truth(self, ride):
-        """What is read, before it is counted, as info has it."""
+        """What is read, before it is counted, as info has it, and whether a muscle could be so short."""
         contraction = float(ride.state[0])
+        beyond = {"beyond_e_max": self.rig._beyond_e_max(contraction)}
         if not self.task.pair:
-            return {"true_contraction_ratio": contraction}
-        return {"true_angle_rad": (contraction - self.middle) * self.rad}
+            return {"true_contraction_ratio": contraction, **beyond}
+        return {"true_angle_rad": (contraction - self.middle) * self.rad, **beyond}
 
     def resting(self):
         """The commands under which an episode begins at rest."""
