@@ -1,6 +1,7 @@
 // What explains the data as well; see the header.
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +9,35 @@
 #include <sim/output/diagnosis_words.hpp>
 
 namespace mckibben::output {
+
+namespace {
+
+/// Of general terms, as a search calls them: "waves", all of a kind, or "2 of waves". Empty: it is an effect.
+std::string law_in_words(const std::string& name) {
+  if (name.ends_with("rubs")) return "friction that depends on the place";
+  const auto at = name.find(" of ");
+  const std::string count = at == std::string::npos ? "" : name.substr(0, at + 1),
+                    ending = count == "1 " ? "" : "s";
+  if (name.ends_with("smooth")) return fmt::format("a law of {}smooth term{}", count, ending);
+  if (name.ends_with("waves")) return fmt::format("a law of {}wave{} along the stroke", count, ending);
+  return "";
+}
+
+/// What an explanation is made of, a law of force among it.
+std::vector<std::string> parts_of(const diagnose::Explanation& one) {
+  if (one.kind != diagnose::Explanation::Kind::law) return one.effects;
+  std::vector<std::string> parts;
+  std::string of_law = "a law of force";
+  for (const std::string& name : one.effects)
+    if (std::string words = law_in_words(name); words.empty())
+      parts.push_back(name);
+    else
+      of_law = std::move(words);
+  parts.push_back(std::move(of_law));
+  return parts;
+}
+
+}  // namespace
 
 std::string explained_by(const diagnose::Explanation& explanation) {
   using enum diagnose::Explanation::Kind;
@@ -21,7 +51,7 @@ std::string explained_by(const diagnose::Explanation& explanation) {
     case further_numbers:
       return "numbers further off than is stated";
     case law:
-      return "a law of force";
+      return fmt::format("{}", fmt::join(parts_of(explanation), " with "));
     case effects:
       break;
   }
@@ -29,13 +59,6 @@ std::string explained_by(const diagnose::Explanation& explanation) {
 }
 
 namespace {
-
-/// What an explanation is made of, a law of force among it.
-std::vector<std::string> parts_of(const diagnose::Explanation& one) {
-  std::vector<std::string> parts = one.effects;
-  if (one.kind == diagnose::Explanation::Kind::law) parts.emplace_back("a law of force");
-  return parts;
-}
 
 /// Those that `others` lacks.
 std::vector<std::string> only_in(const std::vector<std::string>& parts,

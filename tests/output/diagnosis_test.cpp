@@ -228,6 +228,12 @@ TEST(DiagnosisTable, SaysEquivalentModelsByWhatDiffersFromWhatWasFound) {
   EXPECT_EQ(said(creep, described), "the same on the rig as described");
   EXPECT_EQ(said(described, creep), "the same with other values of the rig's parameters");
   EXPECT_EQ(said(creep, lawful), "the same with a law of force");
+  EXPECT_EQ(said(lawful, {.kind = law}), "the same without bladder_creep");
+  const Explanation smooth{.kind = law, .effects = {"bladder_creep", "smooth"}};
+  EXPECT_EQ(explained_by(smooth), "bladder_creep with a law of smooth terms");
+  EXPECT_EQ(said({.kind = law, .effects = {"1 of smooth", "bladder_creep"}}, smooth),
+            "the same with a law of smooth terms in place of a law of 1 smooth term");
+  EXPECT_EQ(explained_by({.kind = law, .effects = {"2 of waves"}}), "a law of 2 waves along the stroke");
   EXPECT_EQ(said(creep, {.kind = effects, .effects = {"valve_lag"}}), "valve_lag") << "nothing in common";
   EXPECT_EQ(said(creep, {.kind = numbers}), "other numbers, as far off as is stated");
   found.verdict = diagnose::Verdict::cannot_tell;  // nothing was found that the other could be like
