@@ -15,7 +15,8 @@ Start look(const domain::Dataset& data) {
   Runs runs;
   for (const auto& run : data.runs) {
     runs.push_back(masked.size());
-    masked.push_back(run.missing.empty() ? std::vector<bool>(run.current_mA.size(), false) : run.missing);
+    masked.push_back(run.judged().missing.empty() ? std::vector<bool>(run.current_mA.size(), false)
+                                                  : run.judged().missing);
   }
   return look_at_start(Experiment(data, masked, 1), data.rig, runs);
 }
@@ -44,7 +45,7 @@ TEST(Start, OfOneRunInPartsIsThatOfTheFirstPart) {
   data.runs.resize(1);
   auto& late = data.runs.front();
   constexpr std::ptrdiff_t lost = 40;
-  late.contraction_ratio.erase(late.contraction_ratio.begin(), late.contraction_ratio.begin() + lost);
+  late.judged().values.erase(late.judged().values.begin(), late.judged().values.begin() + lost);
   late.current_mA.erase(late.current_mA.begin(), late.current_mA.begin() + lost);
   const Start whole = look(data), parts = look(data::in_parts(data));
   EXPECT_EQ(parts.unsettled, std::vector<std::string>{"r01-1"});
