@@ -1,4 +1,5 @@
 // Crossings are looked for on a grid and then halved; see the header.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -18,6 +19,42 @@ double crossing(const auto& f, double low, double high) {
     ((f(middle) > 0.0) == above ? low : high) = middle;
   }
   return std::sqrt(low * high);
+}
+
+/// The frequency between two where a function is largest, by golden section of the logarithm.
+double largest(const auto& f, double low, double high) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  for (int i = 0; i < 40; ++i) {
+    const double step = std::pow(high / low, golden), lower = high / step, upper = low * step;
+    if (f(lower) > f(upper))
+      high = upper;
+    else
+      low = lower;
+  }
+  return std::sqrt(low * high);
+}
+
+/// The frequencies, and those where the gain has a peak or a dip: a resonance may be narrower than their
+/// steps.
+std::vector<double> with_extremes(std::vector<double> grid, const auto& gain) {
+  std::vector<double> at, all;
+  for (const double w : grid) at.push_back(gain(w));
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    all.push_back(grid[i]);
+    if (i == 0 || i + 1 == grid.size()) continue;
+    const double sign = at[i] > at[i - 1] ? 1.0 : -1.0;
+    if (sign * at[i] < sign * at[i + 1] || at[i] == at[i - 1]) continue;
+    const auto signed_gain = [&](double w) { return sign * gain(w); };
+    all.push_back(largest(signed_gain, grid[i - 1], grid[i + 1]));
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+/// With so many digits, and no larger.
+double rounded_down(double value, int digits) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) + 1.0 - digits);
+  return std::floor(value / step) * step;
 }
 
 }  // namespace
@@ -86,7 +123,7 @@ Margins margins_of(const System& loop) {
       margins.gain = factor, margins.gain_rad_per_s = w;
     if (factor < 1.0 && factor > margins.shrunk_gain.value_or(0.0)) margins.shrunk_gain = factor;
   };
-  const std::vector<double> grid = frequencies(loop.step_s, 800);
+  const std::vector<double> grid = with_extremes(frequencies(loop.step_s, 800), excess);
   Complex now = response(loop, grid.front());
   for (std::size_t i = 1; i < grid.size(); ++i) {
     const double low = grid[i - 1], high = grid[i];
@@ -119,12 +156,13 @@ double calmed_m_per_s(const Point& point, const controllers::PidForm& pid, doubl
 
 std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, const Wanted& wanted) {
   constexpr double rounding = 1e-9, close = 1e-6;
+  constexpr int digits = 4;  // as it is printed
   System plant = sampled(point.system(), tick_s, point.delay_s());
   plant.C *= point.shown;
   const double slightest = 1e-3 / std::abs(gain_at_rest(plant)), strongest = 1e6 * slightest;
   std::optional<PidByMargins> best;
   for (const double w : frequencies(tick_s, 100)) {
-    const double Td_s = 1.0 / w, Ti_s = 4.0 * Td_s;
+    const double Td_s = rounded_down(1.0 / w, digits), Ti_s = rounded_down(4.0 * Td_s, digits);
     const auto with = [&](double K) {
       return margins_of(in_series(system_of(pid_of({K, Ti_s, Td_s}), tick_s), plant));
     };
@@ -143,7 +181,8 @@ std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, co
       const double middle = std::sqrt(low * high);
       (keeps_phase(middle) ? low : high) = middle;
     }
-    best = {{low, Ti_s, Td_s}, gain_binds};
+    best = {
+        {rounded_down(low, digits), Ti_s, Td_s}, gain_binds, gain_binds ? 0.0 : with(high).phase_rad_per_s};
   }
   return best;
 }

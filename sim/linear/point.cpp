@@ -265,8 +265,16 @@ controllers::Command commands_of(const plant::Rig& rig, double current_mA) {
   return {current_mA, two.current_mA(2.0 * middle_Pa - one.pressure_Pa(current_mA))};
 }
 
-Point point_at(const plant::Rig& rig, double load_kg, const Place& place, Threads threads, Opening opening) {
-  require_slopes(rig, threads);
+Point point_at(const plant::Rig& described, double load_kg, const Place& place, Threads threads,
+               Opening opening) {
+  require_slopes(described, threads);
+  plant::Rig rig = described;  // at rest inside a dead band nothing that is small would act
+  const auto without_band = [](plant::Valve& valve, plant::Effects& effects) {
+    valve.dead_band_Pa = 0.0;
+    effects.get<plant::ValveDeadBand>() = {};
+  };
+  without_band(rig.valve, rig.effects);
+  if (plant::Pair* pair = rig.pair()) without_band(pair->opposite.valve, pair->opposite.effects);
   Point point;
   point.load_kg = load_kg;
   point.command = commands_of(rig, command_at(rig, load_kg, place));

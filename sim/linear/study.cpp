@@ -28,8 +28,9 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
   if (question.margins)
     if (const auto found = pid_by_margins(point, rig.tick_s, *question.margins)) {
       result.by_margins = found->gains;
-      add("pid_by_margins", loop_of(point, pid_of(found->gains), rig.tick_s)).binds =
-          found->gain_binds ? "gain" : "phase";
+      Loop& loop = add("pid_by_margins", loop_of(point, pid_of(found->gains), rig.tick_s));
+      loop.binds = found->gain_binds ? "gain" : "phase";
+      loop.binds_rad_per_s = found->binds_rad_per_s;
     }
   if (question.lqr) {
     const Regulator regulator = lqr(point, rig.tick_s, question.lqr->position, question.lqr->command);

@@ -17,8 +17,9 @@ struct Loop {
   std::string name;
   System open;
   Margins margins{};
-  double calmed_m_per_s = 0.0;  ///< of an unstable one, see there
-  std::string_view binds{};     ///< of `pid_by_margins`, the margin that more gain would cost: gain or phase
+  double calmed_m_per_s = 0.0;   ///< of an unstable one, see there
+  std::string_view binds{};      ///< of `pid_by_margins`, the margin that more gain would cost: gain or phase
+  double binds_rad_per_s = 0.0;  ///< where it would cost the phase margin
 };
 
 /// Position and command errors that count alike in a least squares feedback, in units of both.

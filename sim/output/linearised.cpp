@@ -52,7 +52,12 @@ std::string margins_line(const linear::Loop& loop, bool in_a_swing) {
                                           : "no bound";
   const std::string shrunk =
       has.shrunk_gain ? fmt::format("; swings too at {:.3g} times its gain", *has.shrunk_gain) : "";
-  const std::string binds = loop.binds.empty() ? "" : fmt::format("; the {} margin binds", loop.binds);
+  // A resonance just below a gain of 1 binds, too.
+  const bool elsewhere = std::abs(std::log(loop.binds_rad_per_s / has.phase_rad_per_s)) > std::log(1.05);
+  const std::string binds = loop.binds.empty() ? ""
+                            : loop.binds_rad_per_s > 0.0 && elsewhere
+                                ? "; the phase margin binds, " + at(loop.binds_rad_per_s)
+                                : fmt::format("; the {} margin binds", loop.binds);
   return fmt::format("  {:18} {:30} {}{}{}\n", loop.name, gain, phase, shrunk, binds);
 }
 

@@ -188,6 +188,23 @@ TEST(Loop, ThatIsUnstableIsCalmedByDryFrictionUpToASpeed) {
   EXPECT_GT(growth(rig, point, pid, 1.6 * calmed, 4.0), 1.0) << calmed;
 }
 
+// A resonance whose gain is above 1 in a band that is narrower than the steps of the frequencies.
+TEST(Loop, ANarrowResonanceHasAPhaseMarginOfItsOwn) {
+  constexpr double w0 = 15.0, damping = 4e-3;
+  System plant{Matrix::Zero(3, 3), Matrix(3, 1), Matrix(1, 3), Matrix::Zero(1, 1)};
+  plant.A(1, 2) = 1.0;
+  plant.A(2, 1) = -w0 * w0;
+  plant.A(2, 2) = -2.0 * damping * w0;
+  plant.B << 1.0, 0.0, 1.0;
+  for (const double peak : {0.97, 1.004, 1.006, 1.02, 1.1}) {
+    plant.C << 1.0, (peak - 1.0 / w0) * 2.0 * damping * w0 * w0, 0.0;
+    const Margins has = margins_of(sampled(plant, tick_s, 0.05));
+    ASSERT_TRUE(has.stable);
+    EXPECT_NEAR(has.phase_rad_per_s, peak > 1.0 ? w0 : 1.0, 0.05) << peak;
+    EXPECT_EQ(*has.phase_rad<1.0, peak> 1.0) << peak;
+  }
+}
+
 TEST(Loop, PidByMarginsHasThem) {
   const plant::Rig rig = fine_rig();
   const Point point = point_of(rig);

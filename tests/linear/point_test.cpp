@@ -212,6 +212,28 @@ TEST(Point, OfAPairAndOfALeverIsAsRidden) {
 }
 
 /// The valve alone: a regulator's lag is a pole, at any load and place.
+// At rest inside it nothing small would act: it is left out, as backlash and hysteresis are.
+TEST(Point, HasNoDeadBandOfTheValve) {
+  for (const bool regulator : {true, false}) {
+    plant::Rig rig;
+    if (regulator) {
+      rig.valve.kind = plant::ValveKind::regulator;
+      rig.valve.time_constant_s = 0.05;
+    }
+    const auto gain_of = [&] {
+      return gain_at_rest(
+          point_at(rig, 11.0, {Place::Of::position, 0.12}, Threads::sliding, Opening::both).system());
+    };
+    const double gain = gain_of();
+    if (regulator)
+      rig.valve.dead_band_Pa = 1200.0;
+    else
+      rig.effects.get<plant::ValveDeadBand>().half_width_Pa = 2000.0;
+    EXPECT_NEAR(gain_of() / gain, 1.0, 1e-6) << regulator;
+    EXPECT_GT(gain, 0.0);
+  }
+}
+
 TEST(Point, HasThePoleOfARegulatorsLag) {
   plant::Rig rig = smooth();
   rig.valve = regulator(rig.valve, 0.08);
