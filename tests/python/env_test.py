@@ -50,6 +50,20 @@ class Env(unittest.TestCase):
                 info = env.step([1.0])[4]
             self.assertGreater(info["true_contraction_ratio"], 0.05, rig)
 
+    def test_loads_are_of_the_rig_that_is_drawn_if_left_out(self):
+        def light_or_heavy(random):
+            return "festo_dmsp_5" if random.random() < 0.5 else "festo_dmsp_40"
+
+        for rig in (light_or_heavy, ["festo_dmsp_5", "festo_dmsp_40"]):
+            env = mckibben.Env(rig, duration_s=0.1)
+            drawn = set()
+            for seed in range(6):
+                load_kg = env.reset(seed=seed)[1]["load_kg"]
+                self.assertEqual(env.loads_kg, (0.75 * env.rig.usual_load_kg, 1.5 * env.rig.usual_load_kg))
+                self.assertTrue(env.loads_kg[0] <= load_kg <= env.loads_kg[1])
+                drawn.add(env.rig.usual_load_kg)
+            self.assertEqual(len(drawn), 2)
+
     def test_all_rigs_of_one_muscle_have_one_space(self):
         spaces = [mckibben.Env(rig, duration_s=1.0).observation_space for rig in ("thesis", "festo_dmsp_20", mckibben.env.drawn_rig)]
         self.assertEqual(spaces[0], spaces[1])
@@ -322,6 +336,29 @@ class VectorEnv(unittest.TestCase):
         until_ended(disabled)
         with self.assertRaisesRegex(RuntimeError, "reset_mask"):
             disabled.step([0.0, 0.0])
+
+    def test_a_reset_that_could_draw_nothing_is_tried_again(self):
+        for mode in ("SameStep", "NextStep"):
+            unusable = []
+
+            def rig(random):
+                return "no such rig" if unusable else "thesis"
+
+            envs = mckibben.VectorEnv(2, rig=rig, loads_kg=11.0, duration_s=0.05, autoreset_mode=mode)
+            envs.reset(seed=0)
+            still, failures = numpy.full((2, 1), -1.0), 0
+            unusable.append(True)
+            for _ in range(6):
+                try:
+                    envs.step(still)
+                except mckibben.errors.MissingInput:
+                    failures += 1
+            self.assertGreater(failures, 1, mode)
+            unusable.clear()
+            infos = [envs.step(still)[4] for _ in range(3)]
+            self.assertTrue(all(info["_load_kg"].all() for info in infos[:1]), mode)
+            self.assertEqual([one.tick for one in envs.episodes], [2, 2], mode)
+            self.assertGreater(len(envs.finished[0].history["reward"]), 1)
 
     def test_single_members_begin_again(self):
         envs = mckibben.VectorEnv(3, duration_s=6.0, autoreset_mode="Disabled")

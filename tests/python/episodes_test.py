@@ -82,6 +82,21 @@ class Episodes(unittest.TestCase):
         self.assertEqual(env.history["reward"].tolist(), rewards)
         self.assertLess(max(rewards), -2.4)
 
+    def test_of_a_step_of_many_ticks_rewards_sum_to_what_it_returned(self):
+        class Skips(mckibben.Env):
+            def step(self, action):
+                total = 0.0
+                for _ in range(4):
+                    *seen, reward, terminated, truncated, info = super().step(action)
+                    total += reward
+                return *seen, total, terminated, truncated, info
+
+        env = Skips(duration_s=1.2)
+        env.reset(seed=0)
+        total = sum(env.step([0.2])[1] for _ in range(10))
+        self.assertEqual(len(env.history["reward"]), 40)
+        self.assertAlmostEqual(env.history["reward"].sum(), total)
+
     def test_histories_of_many_have_the_rewards_of_a_subclass(self):
         class Gentle(mckibben.VectorEnv):
             def step(self, actions):

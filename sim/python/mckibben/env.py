@@ -8,7 +8,7 @@ import numbers
 
 import numpy
 
-from ._core import Batch, Ride
+from ._core import Batch, Ride, Rig
 from .errors import NumericalFailure
 from .task import Episode, Task, actions_of, drawn_rig, drawn_target, options_of
 
@@ -44,8 +44,9 @@ def _rewarded(step):
     """A subclass's step, whose reward is that of the history."""
     @functools.wraps(step)
     def own(self, *args, **keys):
+        before = len(self.episode.rows) if self.episode else 0
         result = step(self, *args, **keys)
-        self.episode.rewarded(result[1])
+        self.episode.rewarded(result[1], before)
         return result
     return own
 
@@ -58,7 +59,7 @@ def _all_rewarded(step):
         result = step(self, *args, **keys)
         for (one, rows), reward in zip(before, result[1]):
             if len(one.rows) > rows:
-                one.rewarded(reward)
+                one.rewarded(reward, rows)
         return result
     return own
 
@@ -92,14 +93,13 @@ class Env(Base):
         """`rig`, `target` (as in scenario files; of a pair an angle): one, a list of which each episode draws one, or a
         function that makes one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s, of a
         pair from -15 to 15 deg. `loads_kg`: a load, or two between which each episode draws its
-        own; if left out, three quarters to one and a half of the rig's `usual_load_kg`.
+        own; if left out, three quarters to one and a half of `usual_load_kg` of the episode's rig.
         `jitter`: root mean square of what shakes the position before it is counted, as a contraction ratio [1] or an
         angle [rad].
         Nothing is rendered: plot `history`. Raises InputError, ValueError."""
         _no_rendering(render_mode)
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
         self.action_space, self.observation_space = (Box(*ends) for ends in (self.task.acted, self.task.observed))
-        self.loads_kg = self.task.loads_kg
         self.episode = self.ride = None
         self.ended = False
 
@@ -135,6 +135,12 @@ class Env(Base):
     def rig(self):
         """Of this episode; before the first one as it was given."""
         return self.episode.rig if self.episode else self.task.rig
+
+    @property
+    def loads_kg(self):
+        """The lightest and the heaviest that episodes draw; where none were given those of this episode's rig, and None
+        before it is drawn."""
+        return self.task.loads_of(self.rig) if isinstance(self.rig, Rig) else self.task.loads_kg
 
     @property
     def target(self):
@@ -227,6 +233,7 @@ class VectorEnv(VectorBase):
         self.action_space = self._many(self.single_action_space)
         self.observation_space = self._many(self.single_observation_space)
         self.episodes, self.batch = [None] * self.num_envs, None
+        self.finished = [None] * self.num_envs  # the episode before, of members that began again by themselves
         self.random = [numpy.random.default_rng() for _ in self.episodes]
         self.ended = numpy.zeros(self.num_envs, dtype=bool)
 
@@ -299,17 +306,22 @@ class VectorEnv(VectorBase):
             self._note(infos, failed, {"failure": [failures[i] for i in failed]})
         self.ended = terminations | truncations
         if self.autoreset_mode == AutoresetMode.SAME_STEP:
-            waiting = self.ended
-            if waiting.any():
-                ended, final = numpy.flatnonzero(waiting), {}
+            if self.ended.any():
+                ended, final = numpy.flatnonzero(self.ended), {}
                 for key in [key for key in infos if not key.startswith("_")]:
-                    has = infos["_" + key] & waiting
+                    has = infos["_" + key] & self.ended
                     self._note(final, numpy.flatnonzero(has), {key: infos[key][has]})
-                    infos["_" + key] &= ~waiting
+                    infos["_" + key] &= ~self.ended
                 self._note(infos, ended, {"final_obs": [self.observations[i].copy() for i in ended]})
-                infos["final_info"], infos["_final_info"] = final, waiting.copy()
+                infos["final_info"], infos["_final_info"] = final, self.ended.copy()
+            waiting = waiting | self.ended
         if self.autoreset_mode != AutoresetMode.DISABLED and waiting.any():
-            self._begin(numpy.flatnonzero(waiting), [{}] * self.num_envs, infos)
+            self.ended = self.ended | waiting  # where no episode can be drawn they still wait, for another try
+            again = numpy.flatnonzero(waiting)
+            before = [self.episodes[i] for i in again]
+            self._begin(again, [{}] * self.num_envs, infos)
+            for i, one in zip(again, before):
+                self.finished[i] = one
         return self.observations.copy(), rewards, terminations, truncations, infos
 
     def render(self):

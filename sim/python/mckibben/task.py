@@ -90,14 +90,13 @@ class Task:
         if self.pair and target is drawn_target:
             raise ValueError("target: drawn_target draws contraction ratios, of one muscle; a pair wants angles, such as lambda random: "
                              "{'kind': 'sine', 'mean': '0 deg', 'amplitude': f'{random.uniform(5, 15)} deg', 'period': '4 s'}")
-        if loads_kg is None:
-            usual_kg = min(one.usual_load_kg for one in made)
-            loads_kg = 0.75 * usual_kg, 1.5 * usual_kg  # friction holds lighter ones above the lowest of TARGET
-        if isinstance(loads_kg, numbers.Real):
-            loads_kg = loads_kg, loads_kg
-        if isinstance(loads_kg, str) or numpy.shape(loads_kg) != (2,):
-            raise ValueError(f"loads_kg = {loads_kg!r}: one mass, or the lightest and the heaviest, such as (8.0, 23.0)")
-        self.loads_kg = tuple(sorted(self.load(f"loads_kg[{i}]", load) for i, load in enumerate(loads_kg)))
+        self.loads_kg = None
+        if loads_kg is not None:
+            if isinstance(loads_kg, numbers.Real):
+                loads_kg = loads_kg, loads_kg
+            if isinstance(loads_kg, str) or numpy.shape(loads_kg) != (2,):
+                raise ValueError(f"loads_kg = {loads_kg!r}: one mass, or the lightest and the heaviest, such as (8.0, 23.0)")
+            self.loads_kg = tuple(sorted(self.load(f"loads_kg[{i}]", load) for i, load in enumerate(loads_kg)))
         default = self.PAIR_TARGET if self.pair else self.TARGET
         self.target = default if target is None else target
         self.duration_s = number("duration_s", duration_s, 0.0001, 3600.0, " s")
@@ -130,6 +129,11 @@ class Task:
             raise ValueError("rig: all rigs of an environment have one muscle, or all have two")
         self.pair = rig.pair
         return rig
+
+    def loads_of(self, rig):
+        """The lightest and the heaviest of episodes with this rig; friction holds lighter ones than the usual above the
+        lowest of TARGET."""
+        return self.loads_kg or (0.75 * rig.usual_load_kg, 1.5 * rig.usual_load_kg)
 
     def load(self, name, load_kg):
         """A load that every known rig can lift."""
@@ -177,13 +181,13 @@ class Task:
         if callable(self.rig):
             rig = self.made(rig)
         target = one_of("target", self.target, random)
-        load_kg = None if self.pair else float(options.get("load_kg", random.uniform(*self.loads_kg)))
+        load_kg = None if self.pair else float(options.get("load_kg", random.uniform(*self.loads_of(rig))))
         if self.fixed is not None:
             return rig, load_kg, target, self.fixed
         anybody, unit = {"kind": "pid"}, rig.command_unit  # whoever is to follow it: a scenario wants a controller
         if not self.pair:
             anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
-        return rig, load_kg, target, self.scenario(rig, sorted(set(self.loads_kg)), target, [anybody]).target
+        return rig, load_kg, target, self.scenario(rig, sorted(set(self.loads_of(rig))), target, [anybody]).target
 
 
 class Episode:
@@ -268,9 +272,10 @@ class Episode:
         self.rows.append((self.tick * self.tick_s, self.wanted[self.tick], self.last, *self.given, reward))
         return self.seen((self.last - before) / self.tick_s), reward, self.over()
 
-    def rewarded(self, reward):
-        """The last tick, by whoever rewards it otherwise."""
-        self.rows[-1] = (*self.rows[-1][:-1], float(reward))
+    def rewarded(self, reward, before):
+        """The ticks since there were so many rows, together, by whoever rewards them otherwise."""
+        earlier = sum(row[-1] for row in self.rows[before:-1])
+        self.rows[-1] = (*self.rows[-1][:-1], float(reward) - earlier)
 
     def over(self):
         return self.tick + 1 >= len(self.wanted)
