@@ -136,6 +136,10 @@ class Columns {
     if (const domain::Reading& read = data_.runs.front().judged(); read.channel.is_pressure())
       judge(pressure(read.channel), all);
     for (const auto& [key, beside] : forces) force(key, beside, true);
+    for (const domain::Reading& read : data_.runs.front().readings)
+      if (read.channel.muscle == 1)
+        if (auto found = of_the_other_muscle(data_, expected_, map_, *read.channel.signal))
+          findings_.push_back(std::move(*found));
     if (data_.recorded.start != domain::Start::settled) return;
     const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::muscle_pressure);
     for (const auto& [line, gauge] : gauges_)

@@ -272,6 +272,34 @@ std::optional<double> off_at_beginning(const Compared& gauge) {
 
 }  // namespace
 
+std::optional<Finding> of_the_other_muscle(const domain::Dataset& data, const std::vector<Expected>& expected,
+                                           const domain::ColumnMap& map, const plant::Signal& signal) {
+  const std::string keys[] = {plant::Channel{&signal, 1}.key_in_dataset(),
+                              plant::Channel{&signal, 2}.key_in_dataset()};
+  Finding found{.quantity = keys[0], .message = {}, .severity = Severity::doubtful};
+  double as_said = 0.0, exchanged = 0.0;
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    Compared one, two;
+    for (std::size_t reading = 0; reading < data.runs[i].readings.size(); ++reading)
+      if (const plant::Channel& channel = data.runs[i].readings[reading].channel; channel.signal == &signal)
+        (channel.muscle == 1 ? one : two).add(i, data.runs[i], expected[i], reading);
+    if (one.measured.size() != two.measured.size()) continue;
+    found.runs.push_back(i);
+    for (std::size_t k = 0; k < one.measured.size(); ++k) {
+      as_said += std::pow(one.measured[k] - one.model[k], 2) + std::pow(two.measured[k] - two.model[k], 2);
+      exchanged += std::pow(one.measured[k] - two.model[k], 2) + std::pow(two.measured[k] - one.model[k], 2);
+    }
+  }
+  if (!(exchanged < of_gains.exchanged_share * as_said)) return std::nullopt;
+  ColumnPlace first = map[keys[0]], second = map[keys[1]];
+  std::swap(first.column, second.column);
+  found.message = fmt::format(
+      "with {} and {} exchanged {:.0f} % of the rig's error is left: are they? About columns: {{{}, {}}}",
+      keys[0], keys[1], 100.0 * std::sqrt(exchanged / as_said), line_of(keys[0], first),
+      line_of(keys[1], second));
+  return found;
+}
+
 std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
                                            ColumnPlace place, double accuracy_Pa) {
   std::vector<double> offs_Pa, lowest_Pa;

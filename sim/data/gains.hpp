@@ -62,6 +62,9 @@ std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::
 /// to it. `accuracy_Pa`: rms.
 std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
                                            domain::ColumnPlace place, double accuracy_Pa);
+/// Readings of two muscles that are each other's. `map`: with our names where it says none.
+std::optional<Finding> of_the_other_muscle(const domain::Dataset& data, const std::vector<Expected>& expected,
+                                           const domain::ColumnMap& map, const plant::Signal& signal);
 /// Whether a gauge may read so many times what the rig would do.
 bool is_gauge_slope(double slope);
 

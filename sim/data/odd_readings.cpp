@@ -101,7 +101,7 @@ std::optional<std::size_t> lost_counts(const Series& values, const Series& sharp
 std::vector<Still> stills(const Series& values, const Series& model, double count, double tick_s) {
   const auto shortest = static_cast<std::size_t>(std::lround(beyond.still_s / tick_s));
   const std::size_t nearby = beyond.cut_off_ticks;
-  const double highest = *std::max_element(values.begin(), values.end());
+  const double highest = *std::max_element(values.begin(), values.end()), whole = range(model);
   std::vector<Still> found;
   for (std::size_t begin = 0, end; begin < values.size(); begin = end) {
     end = begin + 1;
@@ -126,7 +126,8 @@ std::vector<Still> stills(const Series& values, const Series& model, double coun
       found.push_back({{begin + 1, end}, Still::Why::saturated});
     else if (missed > beyond.frozen_counts * count && (stops_dead || jumps))
       found.push_back({{begin + 1, end}, Still::Why::frozen});
-    else if (missed > beyond.stuck_counts * count)
+    else if (missed > std::min(beyond.stuck_counts * count,
+                               std::max(beyond.should_move_counts * count, beyond.stuck_share * whole)))
       found.push_back({{begin + 1, end}, Still::Why::stuck});
   }
   return found;

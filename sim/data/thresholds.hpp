@@ -29,7 +29,9 @@ struct ColumnThresholds {
       1.05;  ///< times the supply [bar], as a number: what is called current may be a pressure
   double amperes = 1.0 / 400.0;  ///< of the valve's span: currents so small are amperes
   double hardly_alike = 0.5;     ///< the same of angles, forces and pressures
-  double opposite = 0.2;         ///< the sign is the other one if the slope is below minus this,
+  double exchanged_share =
+      0.25;               ///< of the sum of squares is left where readings of two muscles change places
+  double opposite = 0.2;  ///< the sign is the other one if the slope is below minus this,
   double opposite_contraction = 0.3, opposite_mean = 0.5;  ///< of a cord's mean force: a zero set under load
   double opposite_alike = 0.5;                             ///< and the correlation below minus this
   double same_turn = 2.0;                                  ///< as `same`: degrees and radians are far apart,
@@ -98,7 +100,8 @@ struct ReadingThresholds {
   double catches_up_counts = 6.0;    ///< in a tick, after standing still
   double saturated_counts = 80.0;    ///< the model's way meanwhile, if cut off,
   double frozen_counts = 100.0;      ///< if it stopped dead or caught up,
-  double stuck_counts = 200.0;       ///< if neither
+  double stuck_counts = 200.0;       ///< if neither,
+  double stuck_share = 0.9;          ///< or such a part of the model's range: a small muscle has few counts
   double dead_current = 1e-3;        ///< of the valve's range above its zero: nothing moves
   double moving_counts = 1.5;        ///< of a run that moves at all
   double should_move_counts = 20.0;  ///< of the model: the load should have moved

@@ -105,5 +105,24 @@ TEST(Usable, AnglesAndPressuresThatAreNotWhatTheirColumnsSayAreRefusedWithTheLin
   EXPECT_NE(refused(data, exchange).find("exchange muscle 1 and muscle 2"), std::string::npos);
 }
 
+TEST(Usable, TensionsOfTheOtherMuscleAreAskedAbout) {
+  domain::Dataset data = diagnose::of_a_joint(plant::thesis_pair(), false);
+  const diagnose::Loaded pair{data.rig};
+  for (domain::Run& run : data.runs) {
+    for (const std::size_t muscle : {1U, 2U}) run.read("force", {}, muscle);
+    const diagnose::Readings readings = diagnose::predict(run, {&pair, 1}).front();
+    for (const std::size_t muscle : {1U, 2U}) run.readings[muscle].values = readings.readings[muscle];
+  }
+  const auto said = [&] {
+    std::string all;
+    for (const std::string& warning : usable(data, 2).warnings) all += warning;
+    return all;
+  };
+  EXPECT_EQ(said().find("exchanged"), std::string::npos);
+  for (domain::Run& run : data.runs) run.readings[1].values.swap(run.readings[2].values);
+  EXPECT_NE(said().find("with tension_1 and tension_2 exchanged"), std::string::npos) << said();
+  EXPECT_NE(said().find("tension_1: {column: tension_2_N, unit: N}"), std::string::npos) << said();
+}
+
 }  // namespace
 }  // namespace mckibben::identify

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <sim/data/odd_readings.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/run/campaign.hpp>
 #include <sim/run/look.hpp>
@@ -377,6 +378,19 @@ TEST(Sanity, ExchangedLabelsAreFoundWhateverTheRigHas) {
     EXPECT_EQ(findings.front().runs, (std::vector<std::size_t>{1, 2})) << name;
     EXPECT_FALSE(findings.front().exchanged.empty()) << name;
   }
+}
+
+// Of a small muscle, whose whole stroke is few counts of the thesis's encoder.
+TEST(Sanity, AReadingThatFreezesOnItsWayToTheEndIsFound) {
+  std::vector<double> model, read;
+  for (int k = 0; k < 500; ++k) model.push_back(0.05 - 0.05 * std::cos(0.05 * k));
+  read = model;
+  std::fill(read.begin() + 220, read.end(), read[220]);
+  const auto found = data::stills(read, model, 6.5e-4, 0.01);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].why, data::Still::Why::stuck);
+  EXPECT_EQ(found[0].end, 500u);
+  EXPECT_TRUE(data::stills(model, model, 6.5e-4, 0.01).empty());
 }
 
 }  // namespace
