@@ -240,8 +240,13 @@ struct Gap {
   Judged judged = Judged::contraction;
   std::vector<BesideGap> beside{};
 
+  /// Of runs with faults of their own, which no other run foretells: with these taken out, not held out.
+  std::optional<double> mended_rmse{};
+
   /// How many noise floors the corrected rig leaves; 0 if nothing was compared.
-  double floors_left() const { return noise_floor > 0.0 ? corrected_rmse / noise_floor : 0.0; }
+  double floors_left() const {
+    return noise_floor > 0.0 ? mended_rmse.value_or(corrected_rmse) / noise_floor : 0.0;
+  }
 };
 
 /// Where runs begin, as a suspect: a rig that had not settled moves for reasons that no model of it knows.

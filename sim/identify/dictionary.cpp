@@ -190,7 +190,10 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
   }
   if (written_coarsely > 0.0)
     parameters.push_back(
-        {{.path = "bench.zero", .scale = 0.5 * written_coarsely, .lowest = -1.0, .highest = 1.0}});
+        {{.path = "bench.zero",
+          .scale = 0.5 * written_coarsely,
+          .lowest = -written_coarsely,
+          .highest = written_coarsely}});  // further off its zero is wrong, and is said to be
   const std::vector<diagnose::Candidate> all = diagnose::catalogue(data);
   for (const diagnose::Candidate& c : all)
     if (c.fits(described_))

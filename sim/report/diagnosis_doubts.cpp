@@ -69,12 +69,16 @@ std::string competition_html(const Diagnosis& diagnosis, const plant::Rig& rig) 
 std::string twins_html(const domain::Dataset& data, const Diagnosis& diagnosis) {
   std::string html;
   for (const auto& effect : diagnosis.effects)
-    html +=
-        paragraph(effect.confusable_with.empty()
-                      ? fmt::format("{}: no other effect of the catalogue explains these data as well.",
-                                    effect.who().words())
-                      : fmt::format("{} could as well be {}: these data do not separate them.",
-                                    effect.who().words(), output::listed(words_of(effect.confusable_with))));
+    html += paragraph(
+        !std::isfinite(effect.support.before_rivals) && effect.confusable_with.empty()
+            ? fmt::format("{}: all others promised less by a linear model, and none was fitted in its "
+                          "place.",
+                          effect.who().words())
+        : effect.confusable_with.empty()
+            ? fmt::format("{}: no other effect of the catalogue explains these data as well.",
+                          effect.who().words())
+            : fmt::format("{} could as well be {}: these data do not separate them.", effect.who().words(),
+                          output::listed(words_of(effect.confusable_with))));
   const bool open = !diagnosis.residual_law.empty() ||
                     std::ranges::any_of(diagnosis.effects,
                                         [](const auto& effect) { return !effect.confusable_with.empty(); });

@@ -72,6 +72,18 @@ Dictionary::Free free_of(const domain::Dataset& data, const std::string& path) {
   return *std::ranges::find(all, path, &Dictionary::Free::path);
 }
 
+// Rounding moves a reading by a step at most; further off its zero is wrong, which is a fault to be named.
+TEST(Dictionary, WhatIsWrittenCoarselyIsOffByAStepAtMost) {
+  domain::Dataset data;
+  data.runs.emplace_back().read("contraction", {0.0, 0.1});
+  data.runs.back().load_kg = 3.0;
+  const Dictionary dictionary(data, 2e-3);
+  const auto zero = std::ranges::find(dictionary.parameters, "bench.zero", &Dictionary::Free::path);
+  ASSERT_NE(zero, dictionary.parameters.end());
+  EXPECT_EQ(zero->highest, 2e-3);
+  EXPECT_EQ(zero->lowest, -2e-3);
+}
+
 // What could pull upwards, a cord softer than any, a link lighter in its turning than its mass allows.
 TEST(Dictionary, NumbersGoAsFarAsAFileIsReadWithTheData) {
   domain::Dataset data;
