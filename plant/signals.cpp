@@ -123,7 +123,10 @@ std::vector<Channel> recorded_channels(const Rig& rig, const Driven& driven) {
   const bool force = driven.pair || driven.length || driven.force;
   std::erase_if(all, [&](const Channel& channel) {
     const InFiles in_files = channel.signal->in_files;
-    return in_files == InFiles::no || (in_files == InFiles::measured_force && !force);
+    const Pair* pair = channel.muscle == 2 ? rig.pair() : nullptr;
+    const Effects& effects = pair != nullptr ? pair->opposite.effects : rig.effects;
+    return in_files == InFiles::no || (in_files == InFiles::measured_force && !force) ||
+           (in_files == InFiles::with_effects && effects.absent());
   });
   return all;
 }

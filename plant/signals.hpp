@@ -82,9 +82,8 @@ struct Unit {
 
 enum class Kind { time, input, state, reading };
 enum class Part { joint, muscle };
-/// What a rig must have for a signal to exist: one muscle; or a joint whose angle is read, of two muscles or
-/// a lever, or else whose height is. Outer forces are of these, torques of those. A cord is one that
-/// stretches, a tank one whose pressure sinks.
+/// What a rig must have for a signal to exist. Angles are read of two muscles or a lever, heights of others:
+/// outer torques are of those, forces of these. A cord is one that stretches, a tank's pressure sinks.
 enum class Needs {
   nothing,
   height,
@@ -101,8 +100,8 @@ enum class Needs {
   outer_torque
 };
 /// Whether it is a column of the files of runs; a force only of pairs, and where it is measured or a length
-/// is given. Pages, Python and FMUs have all signals.
-enum class InFiles { yes, no, measured_force };
+/// is given; what effects add, of muscles that have any. Pages, Python and FMUs have all signals.
+enum class InFiles { yes, no, measured_force, with_effects };
 
 struct Signal {
   std::string_view key;
@@ -307,7 +306,7 @@ inline constexpr auto signals = std::to_array<Signal>({
      .words = "force of effects, positive where it shortens the muscle",
      .part = Part::muscle,
      .value = [](const Sample& row, std::size_t i) { return row.side(i).effects_pull_N; },
-     .in_files = InFiles::no},
+     .in_files = InFiles::with_effects},
     {.key = "inflow",
      .unit = units::kg_per_s,
      .words = "air flow into the muscle",
@@ -356,26 +355,21 @@ struct Channel {
   const Signal* signal;
   std::size_t muscle = 0;  ///< 1 or 2 of a pair's; 0 of a joint's, and where there is one muscle
 
-  std::string key() const;             ///< muscle_pressure_1
-  std::string key_in_dataset() const;  ///< in `columns:`: command_1
-  std::string name() const;            ///< of its column: muscle_pressure_1_bar
-  /// Of a data set's column: a reading has the name of what it reads.
-  std::string name_in_dataset() const;
-  std::string words() const;
-  std::string words_in_dataset() const;
+  std::string key() const;              ///< muscle_pressure_1
+  std::string key_in_dataset() const;   ///< in `columns:`: command_1
+  std::string name() const;             ///< of its column: muscle_pressure_1_bar
+  std::string name_in_dataset() const;  ///< of its column in a data set: that of what it reads
+  std::string words() const, words_in_dataset() const;
   /// By its key in a data set, without the muscle's number; muscle 1 is that of one muscle, too.
-  bool is(std::string_view in_dataset, std::size_t of_muscle = 1) const {
-    return signal->in_dataset == in_dataset && (muscle == 2) == (of_muscle == 2);
+  bool is(std::string_view key, std::size_t number = 1) const {
+    return signal->in_dataset == key && (muscle == 2) == (number == 2);
   }
-  /// Of a muscle; a pressure that is commanded is none.
-  bool is_pressure() const {
-    return signal->unit.name == units::bar.name && signal->part == Part::muscle &&
-           signal->kind != Kind::input;
+  bool is_pressure() const {  ///< of a muscle, and not commanded
+    return signal->unit.name == "bar" && signal->part == Part::muscle && signal->kind != Kind::input;
   }
   friend bool operator==(const Channel&, const Channel&) = default;
-  /// In its unit.
+  /// In its unit, and in that of a page.
   double value(const Sample& row) const { return signal->value(row, muscle) / signal->unit.size; }
-  /// In the unit of a page.
   double on_page(const Sample& row) const { return value(row) / signal->unit.page_size; }
   std::string_view page_unit() const {
     return signal->unit.on_page.empty() ? signal->unit.name : signal->unit.on_page;

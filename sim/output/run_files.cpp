@@ -131,9 +131,10 @@ std::string table_of_signals() {
                of_one_only = signal.needs == Needs::one_muscle || signal.needs == Needs::height ||
                              signal.needs == Needs::outer_force || (signal.needs == Needs::cord && !each);
     const std::string one = of_pair_only ? "" : alone.name(), two = of_one_only ? "" : of_pair.name();
-    const char* in_files = signal.in_files == InFiles::yes  ? "yes"
-                           : signal.in_files == InFiles::no ? ""
-                                                            : "of a pair; where measured";
+    const char* in_files = signal.in_files == InFiles::yes            ? "yes"
+                           : signal.in_files == InFiles::no           ? ""
+                           : signal.in_files == InFiles::with_effects ? "with effects"
+                                                                      : "of a pair; where measured";
     text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", code(one), code(two), signal.unit.name, in_files,
                         code(alone.key_in_dataset()), alone.words());
   }

@@ -262,7 +262,7 @@ Group group_of(const Scenario& scenario, const Comparison& comparison, const run
   return group;
 }
 
-PlotsOf plots_for(const Scenario& scenario, const Comparison& comparison) {
+PlotsOf followed(const Scenario& scenario, const Comparison& comparison) {
   if (run::follows_nothing(scenario, comparison))
     return of_angle(scenario) ? PlotsOf{.key = "angle", .title = "Joint angle"}
                               : PlotsOf{.title = "Contraction"};
@@ -277,6 +277,12 @@ PlotsOf plots_for(const Scenario& scenario, const Comparison& comparison) {
           .title = "Joint angle",
           .given = targets ? "target" : "",
           .error = targets ? "Joint angle: angle less target" : ""};
+}
+
+PlotsOf plots_for(const Scenario& scenario, const Comparison& comparison) {
+  PlotsOf of = followed(scenario, comparison);
+  of.driven.joint_force = !scenario.outer_forces.empty() || !scenario.outer_torques.empty();
+  return of;
 }
 
 }  // namespace
