@@ -116,8 +116,7 @@ std::optional<Finding> beyond_the_rig(const domain::Dataset& data, const std::ve
   for (const Expected& one : expected) rig = std::max(rig, most_of(one.judged()));
   std::vector<std::size_t> runs;
   for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    const domain::Reading* read = data.runs[i].find("contraction");
-    const double reached = read != nullptr ? most_of(read->values) : 0.0;
+    const double reached = most_of(data.runs[i].values("contraction"));
     if (reached < of_gains.beyond_reach * rig) continue;
     runs.push_back(i);
     most = std::max(most, reached);

@@ -254,6 +254,7 @@ struct Start {
   double share_of_gap = 0.0,
          share_of_time = 0.0;  ///< of what the corrected rig leaves, in the first `lasting_s`
   double lasting_s = 0.0;
+  double floors_left = 0.0;  ///< root mean square of all that it leaves, in noise floors
   std::vector<std::string>
       unsettled{};  ///< runs that move from the first reading on, as no settled load does
 

@@ -62,6 +62,7 @@ Start look_at_start(const Experiment& experiment, const Rig& corrected, const Ru
   }
   if (all > 0.0) start.share_of_gap = std::clamp(early / all, 0.0, 1.0);
   if (all_rows > 0.0) start.share_of_time = early_rows / all_rows;
+  if (all_rows > 0.0) start.floors_left = std::sqrt((all + all_rows) / all_rows);
   return start;
 }
 

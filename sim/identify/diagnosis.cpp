@@ -270,19 +270,10 @@ class HandingOver {
         std::ranges::find(result_.runs, fault.runs[i], &diagnose::RunGap::id)->estimated_load_kg =
             fault.loads_kg[i];
     const Experiment of_mended(mended, usable_.masked, settings_.threads, usable_.runs);
-    if (!found_.models[handed].point.differ.empty()) {
-      double squares = 0.0, rows = 0.0;
-      const auto readings = of_mended.readings(result_.corrected, usable_.runs);
-      for (std::size_t i = 0; i < usable_.runs.size(); ++i) {
-        const auto of_run = static_cast<double>(data_.runs[usable_.runs[i]].rows());
-        squares +=
-            of_run *
-            std::pow(of_mended.rmse(of_mended.residuals(readings[i], usable_.runs[i]), {usable_.runs[i]}), 2);
-        rows += of_run;
-      }
-      result_.gap.mended_rmse = std::min(result_.gap.corrected_rmse, std::sqrt(squares / rows));
-    }
     result_.start = look_at_start(of_mended, result_.corrected, usable_.runs);
+    if (!found_.models[handed].point.differ.empty())
+      result_.gap.mended_rmse =
+          std::min(result_.gap.corrected_rmse, result_.start.floors_left * of_mended.floor().judged);
     result_.remaining = remaining(of_mended, result_.corrected, usable_.runs, result_.gap, reporting_.seed);
   }
 

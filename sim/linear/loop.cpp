@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
+#include <sim/data/golden_section.hpp>
 #include <sim/linear/loop.hpp>
 
 namespace mckibben::linear {
@@ -21,33 +21,26 @@ double crossing(const auto& f, double low, double high) {
   return std::sqrt(low * high);
 }
 
-/// The frequency between two where a function is largest, by golden section of the logarithm.
-double largest(const auto& f, double low, double high) {
-  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-  for (int i = 0; i < 40; ++i) {
-    const double step = std::pow(high / low, golden), lower = high / step, upper = low * step;
-    if (f(lower) > f(upper))
-      high = upper;
-    else
-      low = lower;
-  }
-  return std::sqrt(low * high);
-}
+struct Seen {
+  double rad_per_s;
+  Complex value;
+};
 
-/// The frequencies, and those where the gain has a peak or a dip: a resonance may be narrower than their
-/// steps.
-std::vector<double> with_extremes(std::vector<double> grid, const auto& gain) {
-  std::vector<double> at, all;
-  for (const double w : grid) at.push_back(gain(w));
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    all.push_back(grid[i]);
-    if (i == 0 || i + 1 == grid.size()) continue;
-    const double sign = at[i] > at[i - 1] ? 1.0 : -1.0;
-    if (sign * at[i] < sign * at[i + 1] || at[i] == at[i - 1]) continue;
-    const auto signed_gain = [&](double w) { return sign * gain(w); };
-    all.push_back(largest(signed_gain, grid[i - 1], grid[i + 1]));
+/// A loop along the frequencies, and where its gain has a peak or a dip between them: a resonance may be
+/// narrower than their steps.
+std::vector<Seen> seen_along(const System& loop) {
+  std::vector<Seen> all;
+  const auto see = [&](double w) { all.push_back({w, response(loop, w)}); };
+  for (const double w : frequencies(loop.step_s, 800)) see(w);
+  const auto gain = [&](std::size_t i) { return std::abs(all[i].value); };
+  for (std::size_t i = 1, count = all.size(); i + 1 < count; ++i) {
+    const double sign = gain(i) > gain(i - 1) ? -1.0 : 1.0;
+    if (gain(i) == gain(i - 1) || sign * gain(i) > sign * gain(i + 1)) continue;
+    const auto least = [&](double logarithm) { return sign * std::abs(response(loop, std::exp(logarithm))); };
+    see(std::exp(
+        data::golden_section(least, std::log(all[i - 1].rad_per_s), std::log(all[i + 1].rad_per_s), 1e-8)));
   }
-  std::ranges::sort(all);
+  std::ranges::sort(all, {}, &Seen::rad_per_s);
   return all;
 }
 
@@ -123,11 +116,10 @@ Margins margins_of(const System& loop) {
       margins.gain = factor, margins.gain_rad_per_s = w;
     if (factor < 1.0 && factor > margins.shrunk_gain.value_or(0.0)) margins.shrunk_gain = factor;
   };
-  const std::vector<double> grid = with_extremes(frequencies(loop.step_s, 800), excess);
-  Complex now = response(loop, grid.front());
-  for (std::size_t i = 1; i < grid.size(); ++i) {
-    const double low = grid[i - 1], high = grid[i];
-    const Complex before = std::exchange(now, response(loop, high));
+  const std::vector<Seen> all = seen_along(loop);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const auto& [low, before] = all[i - 1];
+    const auto& [high, now] = all[i];
     if ((before.imag() > 0.0) != (now.imag() > 0.0)) at_half_turn(crossing(imaginary, low, high));
     if ((std::abs(before) > 1.0) == (std::abs(now) > 1.0)) continue;
     const double w = crossing(excess, low, high),
@@ -136,7 +128,7 @@ Margins margins_of(const System& loop) {
     margins.phase_rad = left;
     margins.phase_rad_per_s = w;
   }
-  at_half_turn(grid.back());
+  at_half_turn(all.back().rad_per_s);
   return margins;
 }
 

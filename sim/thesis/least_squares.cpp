@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include <sim/data/golden_section.hpp>
 #include <sim/thesis/least_squares.hpp>
 
 namespace mckibben::thesis {
@@ -114,22 +115,10 @@ ProjectedFit fit_separable(const Separable& model, const VectorXd& data) {
       least = value;
       best = i;
     }
-  constexpr double golden = 0.6180339887498949;
-  double a = std::max(low, low + (best - 1) * step), b = std::min(high, low + (best + 1) * step);
-  double x1 = b - golden * (b - a), x2 = a + golden * (b - a);
-  double y1 = cost(x1), y2 = cost(x2);
-  while (b - a > 1e-7) {
-    if (y1 < y2) {
-      b = x2, x2 = x1, y2 = y1;
-      y1 = cost(x1 = b - golden * (b - a));
-    } else {
-      a = x1, x1 = x2, y1 = y2;
-      y2 = cost(x2 = a + golden * (b - a));
-    }
-  }
 
   ProjectedFit fit;
-  fit.parameter = std::exp(0.5 * (a + b));
+  fit.parameter = std::exp(data::golden_section(cost, std::max(low, low + (best - 1) * step),
+                                                std::min(high, low + (best + 1) * step), 1e-7));
   fit.at_bound = fit.parameter < model.lowest * 1.001 || fit.parameter > model.highest / 1.001;
   const MatrixXd basis = model.basis(fit.parameter);
   fit.linear = fit_linear(basis, data);
