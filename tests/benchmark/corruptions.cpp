@@ -21,7 +21,7 @@ Hidden six_runs(const std::string& name, std::uint64_t seed) {
   for (const std::size_t run : {0u, 1u, 3u, 4u, 6u, 7u}) {
     kept.push_back(std::move(hidden.data.runs[run]));
     kept.back().current_mA.resize(std::min(rows, kept.back().current_mA.size()));
-    kept.back().contraction_ratio.resize(kept.back().current_mA.size());
+    kept.back().judged().values.resize(kept.back().current_mA.size());
     kept.back().id = "r0" + std::to_string(kept.size());
     kept.back().file = kept.back().id + ".csv";
   }
@@ -183,7 +183,7 @@ std::vector<Corruption> while_it_ran() {
            "r01",
            {"saturated", "frozen"},
            [](Data& d) {
-             auto& e = run(d, 1).contraction_ratio;
+             auto& e = run(d, 1).judged().values;
              const double most = counted(d, 0.8 * *std::max_element(e.begin(), e.end()));
              for (double& ratio : e) ratio = std::min(ratio, most);
            }},
@@ -191,14 +191,14 @@ std::vector<Corruption> while_it_ran() {
            "r04",
            {"frozen"},
            [](Data& d) {
-             auto& e = run(d, 4).contraction_ratio;
+             auto& e = run(d, 4).judged().values;
              std::fill(e.begin() + 200, e.begin() + 283, e[200]);
            }},
           {"reading x 1.03",
            "r06",
            {"scale"},
            [](Data& d) {
-             for (double& ratio : run(d, 6).contraction_ratio) ratio = counted(d, 1.03 * ratio);
+             for (double& ratio : run(d, 6).judged().values) ratio = counted(d, 1.03 * ratio);
            }},
           {"5 rows lost", "r03", {"rows", "lost"}, [](Data& d) { lose_rows(run(d, 3), 320, 5); }}};
 }
@@ -213,16 +213,16 @@ std::vector<Corruption> of_the_table() {
       {"loads exchanged", "r04", {"load"}, [](Data& d) { std::swap(run(d, 1).load_kg, run(d, 4).load_kg); }},
       {"load + 20 %", "r03", {"load"}, [](Data& d) { run(d, 3).load_kg *= 1.2; }},
       {"mm for a ratio", "", {"mm", "millimetres"}, each([](Data&, domain::Run& r) {
-         for (double& ratio : r.contraction_ratio) ratio *= 1e3 * length_m;
+         for (double& ratio : r.judged().values) ratio *= 1e3 * length_m;
        })},
       {"ratio / 300", "", {"mm", "millimetres", "metres", "stroke"}, each([](Data&, domain::Run& r) {
-         for (double& ratio : r.contraction_ratio) ratio /= 1e3 * length_m;
+         for (double& ratio : r.judged().values) ratio /= 1e3 * length_m;
        })},
       {"wrong sign",
        "r02",
        {"sign"},
        [](Data& d) {
-         for (double& ratio : run(d, 2).contraction_ratio) ratio = -ratio;
+         for (double& ratio : run(d, 2).judged().values) ratio = -ratio;
        }},
       {"the same run twice", "r06", {"copy"}, [](Data& d) {
          run(d, 6) = run(d, 1);
@@ -242,25 +242,25 @@ std::vector<Corruption> of_the_bench() {
   const auto half = [](auto change) {
     return [change](Data& d) {
       for (std::size_t r = 4; r <= 6; ++r)
-        for (double& ratio : run(d, r).contraction_ratio) ratio = counted(d, change(ratio));
+        for (double& ratio : run(d, r).judged().values) ratio = counted(d, change(ratio));
     };
   };
   return {{"loads + 1 kg", "", {"All loads"}, each([](Data&, domain::Run& r) { r.load_kg += 1.0; })},
           {"loads + 5 %", "", {"All loads"}, each([](Data&, domain::Run& r) { r.load_kg *= 1.05; })},
           {"steps of 0.5 mm", "", {"steps"}, each([](Data&, domain::Run& r) {
              const double step = 5e-4 / length_m;
-             for (double& ratio : r.contraction_ratio) ratio = step * std::round(ratio / step);
+             for (double& ratio : r.judged().values) ratio = step * std::round(ratio / step);
            })},
           {"zero 2 mm in half", "r05", {"zero"}, half([](double ratio) { return ratio + 2e-3 / length_m; })},
           {"gain 3 % in half", "r05", {"%", "gain"}, half([](double ratio) { return 1.03 * ratio; })},
           {"clock 1 % fast", "", {"clock"}, each([](Data& d, domain::Run& r) {
-             const Series was = r.contraction_ratio;
+             const Series was = r.judged().values;
              const auto last = static_cast<double>(was.size() - 1);
              for (std::size_t k = 0; k < was.size(); ++k) {
                const double at = std::min(1.01 * static_cast<double>(k), last);
                const auto before = static_cast<std::size_t>(at), after = std::min(before + 1, was.size() - 1);
                const double share = at - static_cast<double>(before);
-               r.contraction_ratio[k] = counted(d, std::lerp(was[before], was[after], share));
+               r.judged().values[k] = counted(d, std::lerp(was[before], was[after], share));
              }
            })},
           {"filter 20 Hz",
@@ -269,7 +269,7 @@ std::vector<Corruption> of_the_bench() {
            each([](Data& d, domain::Run& r) { filtered(r, 20.0, d.rig.tick_s); }),
            {"command_delay", "reading_delay", "valve_lag"}},
           {"counts halved", "", {"halved", "counts per turn"}, each([](Data&, domain::Run& r) {
-             for (double& ratio : r.contraction_ratio) ratio *= 0.5;
+             for (double& ratio : r.judged().values) ratio *= 0.5;
            })}};
 }
 
