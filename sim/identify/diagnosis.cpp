@@ -43,7 +43,7 @@ class HandingOver {
         usable_(found.study->usable),
         left_(unpredicted_by_all(found)),
         experiment_(data_, usable_.masked, settings.threads, usable_.runs) {
-    for (const Eigen::VectorXd& one : left_) rms_.push_back(rms(found.study->rows, one));
+    for (const Eigen::VectorXd& one : left_) rms_.push_back(found.study->rows.rms(one));
   }
 
   Diagnosis operator()() {

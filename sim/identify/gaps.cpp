@@ -9,8 +9,6 @@
 
 namespace mckibben::identify {
 
-using Eigen::Index;
-
 std::vector<Eigen::VectorXd> unpredicted_by_all(const Identified& found) {
   const auto groups = groups_of(found.study->rows);
   std::vector<Eigen::VectorXd> list;
@@ -19,33 +17,12 @@ std::vector<Eigen::VectorXd> unpredicted_by_all(const Identified& found) {
   return list;
 }
 
-namespace {
-
-double rms_of_kind(const Rows& rows, const Eigen::VectorXd& left, std::size_t kind,
-                   std::optional<std::size_t> run) {
-  double square = 0.0, count = 0.0;
-  for (const Block& block : rows.blocks)
-    if (block.kind == kind && (!run || block.run == *run))
-      for (Index i = block.begin; i < block.begin + block.rows; ++i)
-        if (rows.known[static_cast<std::size_t>(i)] != 0) {
-          square += left[i] * left[i];
-          count += 1.0;
-        }
-  return std::sqrt(square / std::max(count, 1.0));
-}
-
-}  // namespace
-
-double rms(const Rows& rows, const Eigen::VectorXd& left, std::optional<std::size_t> run) {
-  return rms_of_kind(rows, left, 0, run);
-}
-
 diagnose::Gap gap_of(const Identified& found, const Three& three, const diagnose::NoiseFloor& floor) {
   const Rows& rows = found.study->rows;
   diagnose::Gap gap{.noise_floor = std::max(floor.judged, rows.count / std::sqrt(12.0)),
-                    .nominal_rmse = rms(rows, three.by_nominal),
-                    .recalibrated_rmse = rms(rows, three.by_recalibrated),
-                    .corrected_rmse = rms(rows, three.by_corrected),
+                    .nominal_rmse = rows.rms(three.by_nominal),
+                    .recalibrated_rmse = rows.rms(three.by_recalibrated),
+                    .corrected_rmse = rows.rms(three.by_corrected),
                     .jitter = floor.jitter,
                     .judged = rows.data().judged()};
   const auto above = [&](double error) {
@@ -55,7 +32,7 @@ diagnose::Gap gap_of(const Identified& found, const Three& three, const diagnose
     gap.closed = std::clamp(1.0 - above(gap.corrected_rmse) / above(gap.nominal_rmse), 0.0, 1.0);
   for (std::size_t kind = 1; kind < rows.kinds.size(); ++kind) {
     const plant::Channel& of_kind = rows.kinds[kind];
-    const auto of = [&](const Eigen::VectorXd& left) { return rms_of_kind(rows, left, kind, {}); };
+    const auto of = [&](const Eigen::VectorXd& left) { return rows.rms(left, {}, kind); };
     gap.beside.push_back({of_kind.key_in_dataset(), std::string(data::si_unit(*of_kind.signal)),
                           floor.beside(of_kind), of(three.by_nominal), of(three.by_recalibrated),
                           of(three.by_corrected)});
@@ -84,7 +61,7 @@ std::vector<diagnose::RunGap> gaps_of_runs(const Identified& found, const Three&
     for (const Block& block : rows.blocks) {
       if (!rows.is_judged(block)) continue;
       diagnose::RunGap& gap = gaps[rows.runs[block.run]];
-      gap.*rmse = rms(rows, left, block.run);
+      gap.*rmse = rows.rms(left, block.run);
       const Eigen::VectorXd predicted = (rows.read - left).segment(block.begin, block.rows);
       (gap.*simulated).assign(predicted.begin(), predicted.end());
     }

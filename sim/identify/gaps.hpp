@@ -12,9 +12,6 @@ namespace mckibben::identify {
 /// What each model of the table leaves where runs are held out, row by row.
 std::vector<Eigen::VectorXd> unpredicted_by_all(const Identified& found);
 
-/// Root mean square of the judged reading's rows, of one run or of all.
-double rms(const Rows& rows, const Eigen::VectorXd& left, std::optional<std::size_t> run = {});
-
 /// The three models of a report.
 struct Three {
   const Model &nominal, &recalibrated, &corrected;

@@ -293,7 +293,7 @@ Identified Search::found() && {
   const auto groups = groups_of(rows_);
   // Wide intervals make the log density of a wild prediction a good one: general terms that miss unseen runs
   // by more than the catalogue's most probable model are no law.
-  const auto missed = [&](const Model& m) { return rms(rows_, unpredicted(m, groups)); };
+  const auto missed = [&](const Model& m) { return rows_.rms(unpredicted(m, groups)); };
   const auto counts = [](const Model& m) { return std::isfinite(m.score) && !m.hopeless; };
   const auto is_general = [](const Model& m) { return m.point.terms != Terms::none; };
   const Model* named = nullptr;

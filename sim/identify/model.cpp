@@ -47,17 +47,7 @@ bool Model::has_effects() const {
 }
 
 double Model::left() const {
-  const Rows& rows = problem->rows;
-  const Eigen::VectorXd all = residual();
-  double square = 0.0, count = 0.0;
-  for (const Block& block : rows.blocks)
-    if (rows.is_judged(block))
-      for (Index i = block.begin; i < block.begin + block.rows; ++i)
-        if (rows.known[static_cast<std::size_t>(i)] != 0) {
-          square += all[i] * all[i];
-          count += 1.0;
-        }
-  return std::sqrt(square / count) / rows.unit;
+  return problem->rows.rms(residual()) / problem->rows.unit;
 }
 
 namespace {

@@ -113,4 +113,16 @@ void Rows::find_what_stays() {
   }
 }
 
+double Rows::rms(const Eigen::VectorXd& left, std::optional<std::size_t> run, std::size_t kind) const {
+  double square = 0.0, known_rows = 0.0;
+  for (const Block& block : blocks)
+    if (block.kind == kind && (!run || block.run == *run))
+      for (Eigen::Index i = block.begin; i < block.begin + block.rows; ++i)
+        if (known[static_cast<std::size_t>(i)] != 0) {
+          square += left[i] * left[i];
+          known_rows += 1.0;
+        }
+  return std::sqrt(square / std::max(known_rows, 1.0));
+}
+
 }  // namespace mckibben::identify

@@ -1,6 +1,7 @@
 // What was read, as rows that are even in time: the judged reading of each run, then what was read beside it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,6 +26,8 @@ class Rows {
   const domain::Dataset& data() const { return *data_; }
   Eigen::Index size() const { return read.size(); }
   bool is_judged(const Block& block) const { return block.kind == 0; }
+  /// Root mean square of a column's rows that have a reading of a kind, of one run or of all.
+  double rms(const Eigen::VectorXd& left, std::optional<std::size_t> run = {}, std::size_t kind = 0) const;
 
   std::vector<std::size_t> runs;
   std::vector<Block> blocks;
