@@ -1,7 +1,6 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <sim/data/amount.hpp>
 #include <sim/identify/gaps.hpp>
