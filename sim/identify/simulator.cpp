@@ -230,8 +230,10 @@ void wander_by(double units, std::size_t muscle, const plant::Rig& rig, ride::Dr
     *command.muscle_pressure_Pa += units * pressure_unit_Pa;
   else if (command.valve_pressure_Pa)
     *command.valve_pressure_Pa += units * pressure_unit_Pa;
-  else
+  else if (rig.valve.is_on_off())
     command.current_mA += units * (rig.valve.span_command - rig.valve.zero_command) / 16.0;
+  else  // of what drifts most, the regulator: where it is asked for nothing, too
+    command.stray_pressure_Pa += units * pressure_unit_Pa;
 }
 
 /// A hat of one unit at each knot, linear between.

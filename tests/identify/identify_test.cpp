@@ -67,6 +67,19 @@ TEST(Descent, EndsInOnePlaceWhereverItBegins) {
   EXPECT_LT(std::ranges::max(ends) - std::ranges::min(ends), 0.5);
 }
 
+// A regulator drifts where it is asked for less than nothing, too; a command that wanders would not show
+// there.
+TEST(Simulator, WanderIsFeltBelowTheZeroOfTheCommand) {
+  controllers::SineCurrent sine;
+  sine.low_mA = 3.0;
+  sine.period_s = 2.5;
+  const Study study(diagnose::planted({}, {11.138}, {{"sine", 5.0, sine}}, 7), {.threads = 2});
+  const auto& current_mA = study.rows.data().runs.front().current_mA;
+  const auto below = std::ranges::min_element(current_mA) - current_mA.begin();
+  const Wander wander = study.simulator.wander(study.dictionary.setting(study.dictionary.described()));
+  EXPECT_GT(wander.together[below], 0.5 * wander.together.maxCoeff());
+}
+
 Dictionary::Free free_of(const domain::Dataset& data, const std::string& path) {
   const auto all = Dictionary(data, 0.0).parameters;
   return *std::ranges::find(all, path, &Dictionary::Free::path);
