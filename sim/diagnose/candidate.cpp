@@ -128,7 +128,7 @@ namespace {
 Parameter moved(const Further& one, bool both_sides) {
   if (one.lowest > 0.0)
     return {.path = one.path,
-            .scale = 1.0,
+            .origin = 1.0,
             .lowest = one.lowest,
             .highest = one.highest,
             .logarithmic = true,
@@ -160,7 +160,7 @@ std::vector<Parameter> Candidate::parameters(const Rig& rig) const {
   if (!shape.empty()) {
     const Found form = find(copy, shape);
     list.push_back({.path = shape,
-                    .scale = 1.0,
+                    .origin = 1.0,
                     .lowest = own ? form.lowest
                                   : std::max(form.lowest, shapes.front() / thresholds.parameter.shape_range),
                     .highest = own ? form.highest

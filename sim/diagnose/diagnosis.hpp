@@ -91,9 +91,12 @@ struct Moved {
   double nominal = 0.0;
   double deviations = 0.0;   ///< as they are stated
   bool at_the_edge = false;  ///< of what it may be
+  bool by_factors = false;   ///< deviations are of its logarithm, which no file states
 
   /// Further off than it is stated to be.
-  bool exceeds() const { return std::abs(deviations) > thresholds.parameter.most_deviations && !of_effect(); }
+  bool exceeds() const {
+    return std::abs(deviations) > thresholds.parameter.most_deviations && !of_effect() && !by_factors;
+  }
   /// Worth telling: further than a data sheet promises, or the size of an effect that is another one.
   bool notable() const {
     return std::abs(deviations) > (of_effect() && !fitted.holds(nominal) ? thresholds.parameter.shown

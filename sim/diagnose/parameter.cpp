@@ -33,10 +33,10 @@ void Parameter::put(Rig& rig, double value) const {
   if (both_sides) *find(rig, std::string(of_muscle_2) + path).value = value;
 }
 double Parameter::unscaled(double number) const {
-  return logarithmic ? std::exp(number) : origin + number * scale;
+  return logarithmic ? origin * std::exp(number * scale) : origin + number * scale;
 }
 double Parameter::scaled(double value) const {
-  return logarithmic ? std::log(value) : (value - origin) / scale;
+  return logarithmic ? std::log(value / origin) / scale : (value - origin) / scale;
 }
 
 }  // namespace mckibben::diagnose

@@ -39,13 +39,15 @@ struct Parameter {
   double scale = 1.0;   ///< what it counts in: a prior deviation, or a size that matters
   double lowest = 0.0, highest = 0.0;
   bool has_prior = false;    ///< normal round `origin`, with `scale` as deviation
-  bool logarithmic = false;  ///< counts in logarithms, from 1 in its unit
+  bool logarithmic = false;  ///< counts in logarithms, from that of `origin`
   bool both_sides = false;   ///< of a pair: the number of muscle 2's side is the same one
 
   bool of_effect() const { return path.find("effects.") != std::string::npos; }
   void put(Rig& rig, double value) const;
   double unscaled(double number) const;
   double scaled(double value) const;
+  /// Of its value, where it is this: per unit that a fit counts in.
+  double unit(double value) const { return logarithmic ? scale * value : scale; }
 };
 
 }  // namespace mckibben::diagnose

@@ -65,15 +65,17 @@ std::vector<Standing> standings(const Rig& rig, const std::string& path, const S
   return {{path}, {std::string(of_muscle_2) + path}};
 }
 
-/// A number of the rig, normal round its value.
-Parameter normal(const std::string& path, const Found& found, double deviation) {
-  const double most = thresholds.parameter.most_deviations * deviation;
-  return {.path = path,
-          .origin = *found.value,
-          .scale = deviation,
-          .lowest = std::max(found.lowest, *found.value - most),
-          .highest = std::min(found.highest, *found.value + most),
-          .has_prior = true};
+/// A number of the rig, normal round its value; or its logarithm is.
+Parameter normal(const std::string& path, const Found& found, double deviation, bool logarithmic) {
+  Parameter p{.path = path,
+              .origin = *found.value,
+              .scale = deviation,
+              .has_prior = true,
+              .logarithmic = logarithmic};
+  const double most = thresholds.parameter.most_deviations;
+  p.lowest = std::max(found.lowest, p.unscaled(-most));
+  p.highest = std::min(found.highest, p.unscaled(most));
+  return p;
 }
 
 /// What somebody has put there: its size is a guess, good within a factor of a few, if nothing is stated.
@@ -134,7 +136,8 @@ class Gathering {
       if (prior.of == Prior::Of::load && rig_.pair() != nullptr) continue;
       for (const Standing& one : standings(rig_, std::string(prior.path), stated_))
         if (const double* value = domain::find_number(rig_, one.path).value)  // not every rig has a regulator
-          add(one, prior.relative * std::abs(*value) + prior.absolute);
+          add(one, prior.logarithmic ? prior.relative : prior.relative * std::abs(*value) + prior.absolute,
+              prior.logarithmic);
     }
   }
   void stated() {
@@ -159,16 +162,16 @@ class Gathering {
     p = size_of(candidate, is_size, std::move(p), rig_, stated_);
     if (p.scale > 0.0) list_.push_back(std::move(p));
   }
-  void add(const Standing& at, double usual_deviation) {
+  void add(const Standing& at, double usual_deviation, bool logarithmic = false) {
     const bool known = std::any_of(list_.begin(), list_.end(), [&](const Parameter& p) {
       return p.path == at.path || (p.both_sides && p.path == of_muscle_1(at.path));
     });
     if (known) return;
     const Found found = find(rig_, at.path);
-    const double deviation =
-        deviation_of(stated_, at.path, *found.value, usual_deviation).value_or(usual_deviation);
+    const std::optional<double> said = deviation_of(stated_, at.path, *found.value, usual_deviation);
+    const double deviation = said.value_or(usual_deviation);
     if (!(deviation > 0.0)) return;  // known exactly
-    list_.push_back(normal(at.path, found, deviation));
+    list_.push_back(normal(at.path, found, deviation, logarithmic && !said));
     list_.back().both_sides = at.both_sides;
     if (rig_.pair() != nullptr) keep_link_possible(*rig_.pair(), list_.back());
   }

@@ -22,16 +22,18 @@ struct Prior {
   std::string_view path;
   double relative, absolute;  ///< standard deviation; absolute in the parameter's unit
   enum class Of { any, load, hanging_load } of = Of::any;  ///< joints that have it
+  bool logarithmic = false;                                ///< `relative` is of its logarithm
 };
 struct ParameterThresholds {
   /// Machined lengths are known to a per cent, catalogue conductances, friction and springs to ten, trimmed
   /// pressures [Pa] to a reading of the gauge, the load [kg] to a scale's. A regulator's lag, measured with
-  /// another volume behind it, to a third.
-  std::array<Prior, 16> priors{{{"muscle.rest_radius", 0.01, 0.0},
+  /// another volume behind it, to a third. No sheet tells how far threads give before they slide.
+  std::array<Prior, 17> priors{{{"muscle.rest_radius", 0.01, 0.0},
                                 {"muscle.end_correction", 0.01, 0.0},
                                 {"muscle.braid_angle", 0.01, 0.0},
                                 {"muscle.dead_volume", 0.3, 0.0},
                                 {"friction.scale", 0.1, 0.0},
+                                {"friction.bristle_stiffness", 1.0, 0.0, Prior::Of::any, true},
                                 {"valve.conductance", 0.1, 0.0},
                                 {"valve.zero_pressure", 0.0, 1e3},
                                 {"valve.span_pressure", 0.0, 2e3},

@@ -175,16 +175,17 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
   for (diagnose::Parameter& p : diagnose::nominal_parameters(data.rig, data.rig.spreads)) {
     if (diagnose::out_of_sight(data, p)) continue;
     const diagnose::Found found = diagnose::find(described_, p.path);
-    p.lowest = found.lowest;
-    p.highest = found.highest;
+    p.lowest = p.logarithmic ? std::max(found.lowest, p.unscaled(-Shape{}.furthest)) : found.lowest;
+    p.highest = p.logarithmic ? std::min(found.highest, p.unscaled(Shape{}.furthest)) : found.highest;
     keep_readable(data, p);
     parameters.push_back({p});
   }
   for (std::size_t i = 0, shared = parameters.size(); i < shared; ++i) {
     Free p = parameters[i];
     if (!p.both_sides || p.path == "valve.supply_pressure") continue;
-    p.origin = 0.0;
-    p.lowest = -p.highest;
+    p.highest = p.logarithmic ? p.highest / p.origin : p.highest;
+    p.lowest = p.logarithmic ? 1.0 / p.highest : -p.highest;
+    p.origin = p.logarithmic ? 1.0 : 0.0;
     p.difference = true;
     parameters.push_back(p);
   }
@@ -269,8 +270,8 @@ Ends Dictionary::ends(const Point& point) const {
     const Coordinate& one = list[static_cast<std::size_t>(j)];
     if (one.kind == Kind::parameter) {
       const Free& p = parameters[one.of];
-      ends.lowest[j] = (p.lowest - p.origin) / p.scale;
-      ends.highest[j] = (p.highest - p.origin) / p.scale;
+      ends.lowest[j] = p.scaled(p.lowest);
+      ends.highest[j] = p.scaled(p.highest);
     } else if (one.kind == Kind::size || one.kind == Kind::shape) {
       const Entry& entry = entries[point.effects[one.of].entry];
       const bool size = one.kind == Kind::size;
@@ -294,10 +295,11 @@ Setting Dictionary::setting(const Point& point) const {
   Setting made{described_, {.of_runs = point.of_runs, .starts = point.starts}};
   for (Eigen::Index j = 0; j < point.z.size(); ++j) {
     const Free& p = parameters[static_cast<std::size_t>(j)];
-    const double value = p.origin + p.scale * point.z[j];
+    const double value = p.unscaled(point.z[j]);
     if (p.difference) {
       const diagnose::Found of_2 = diagnose::find(made.rig, std::string(diagnose::of_muscle_2) + p.path);
-      *of_2.value = std::clamp(*of_2.value + value, of_2.lowest, of_2.highest);
+      const double own = p.logarithmic ? *of_2.value * value : *of_2.value + value;
+      *of_2.value = std::clamp(own, of_2.lowest, of_2.highest);
       continue;
     }
     if (p.path == "bench.zero")

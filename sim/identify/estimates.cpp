@@ -112,8 +112,9 @@ class Estimating {
       const auto& p = parameter(j);
       if (of_bench(p)) continue;
       for (const std::string& path : paths_of(p)) {
-        Rounding& known = finest.emplace(path, Rounding{p.scale * alone(j), ends_of(p)}).first->second;
-        known.off = std::min(known.off, p.scale * alone(j));
+        const double off = p.unit(diagnose::value_of(result_.rig, path)) * alone(j);
+        Rounding& known = finest.emplace(path, Rounding{off, ends_of(p)}).first->second;
+        known.off = std::min(known.off, off);
       }
     }
     for (const auto& [path, rounding] : finest) {
@@ -186,30 +187,32 @@ class Estimating {
     const auto& p = parameter(j);
     if (of_bench(p)) return;
     const std::string path = paths_of(p).front();
-    double off = deviation(j), from = p.origin, z = v_[j];
+    double off = deviation(j), z = v_[j];
+    const Dictionary::Free* base = &p;
     if (p.difference) {  // as muscle 2's own, of which the shared one is a part
       const auto shared = std::ranges::find_if(list_, [&](const Coordinate& one) {
         return one.kind == Kind::parameter && !dictionary_.parameters[one.of].difference &&
                dictionary_.parameters[one.of].path == p.path;
       });
       const Index i = shared - list_.begin();
-      from = parameter(i).origin;
+      base = &parameter(i);
       z += v_[i];
       off = std::sqrt(
           std::max(model_.covariance(i, i) + model_.covariance(j, j) + 2.0 * model_.covariance(i, j), 0.0));
     }
     const diagnose::Found found = diagnose::find(result_.rig, path);
     const Ends ends = ends_of(p);
-    const double value = *found.value, half = half_95 * p.scale * off;
+    const double value = *found.value, half = half_95 * off;
     diagnose::Moved moved{.fitted = {.name = path,
                                      .unit = std::string(found.unit),
                                      .value = value,
-                                     .low = std::max(from + p.scale * z - half, ends.lowest),
-                                     .high = std::min(from + p.scale * z + half, ends.highest),
+                                     .low = std::max(base->unscaled(z - half), ends.lowest),
+                                     .high = std::min(base->unscaled(z + half), ends.highest),
                                      .determined = determined(j)},
-                          .nominal = from,
+                          .nominal = base->origin,
                           .deviations = z,
-                          .at_the_edge = value <= ends.lowest || value >= ends.highest};
+                          .at_the_edge = value <= ends.lowest || value >= ends.highest,
+                          .by_factors = p.logarithmic};
     // As well as these runs tell it, where the file told it; where they hardly do, as the file does.
     if (const auto stated = result_.rig.spreads.find(path);
         stated != result_.rig.spreads.end() && determined(j))
@@ -279,8 +282,8 @@ class Estimating {
   void find_left_open() {
     std::vector<diagnose::FittedOne> numbers;
     for (const diagnose::Moved& moved : result_.moved)  // these coordinates come first, in this order
-      numbers.push_back(
-          {moved.fitted.name, moved.fitted.unit, moved.fitted.value, parameter(std::ssize(numbers)).scale});
+      numbers.push_back({moved.fitted.name, moved.fitted.unit, moved.fitted.value,
+                         parameter(std::ssize(numbers)).unit(moved.fitted.value)});
     if (numbers.empty()) return;
     const Index k = std::ssize(numbers), others = v_.size() - k;
     const Eigen::MatrixXd gram = model_.grams.sum().bottomRightCorner(v_.size(), v_.size());

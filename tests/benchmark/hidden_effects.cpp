@@ -236,7 +236,7 @@ plant::Rig described(const Surroundings& surroundings, Dice& dice) {
   }
   if (surroundings.bench == Bench::badly_known)
     for (const Parameter& p : nominal_parameters(rig))
-      if (p.path != "muscle.dead_volume") rig.spreads[p.path] = 3.0 * p.scale;
+      if (p.path != "muscle.dead_volume" && !p.logarithmic) rig.spreads[p.path] = 3.0 * p.scale;
   return rig;
 }
 
@@ -268,7 +268,7 @@ plant::Rig rig_with(const Kind& kind, std::uint64_t seed, const Surroundings& su
   const std::vector<double> off = off_by(kind, surroundings, known.size(), dice);
   for (std::size_t i = 0; i < known.size(); ++i)
     *find(truth, known[i].path).value =
-        std::clamp(known[i].origin + off[i] * known[i].scale, known[i].lowest, known[i].highest);
+        std::clamp(known[i].unscaled(off[i]), known[i].lowest, known[i].highest);
   for (const Planted& planted : kind.plan) {
     const Found found = find(truth, planted.path);
     const bool number = !planted.path.starts_with("effects.");

@@ -41,7 +41,7 @@ domain::Dataset hide(const Kind& kind, std::uint64_t seed, double& size) {
   std::normal_distribution<double> normal;
   Rig rig = plant::thesis_pair();
   for (const Parameter& p : nominal_parameters(rig))
-    p.put(rig, std::clamp(p.origin + p.scale * normal(random) / 3.0, p.lowest, p.highest));
+    p.put(rig, std::clamp(p.unscaled(normal(random) / 3.0), p.lowest, p.highest));
   size = kind.size * std::uniform_real_distribution(0.7, 1.3)(random);
   if (!kind.key.empty())
     Parameter{.path = keys_of(kind.hidden) + kind.key, .both_sides = kind.hidden.side == Side::both}.put(

@@ -85,6 +85,35 @@ Dictionary::Free free_of(const domain::Dataset& data, const std::string& path) {
   return *std::ranges::find(all, path, &Dictionary::Free::path);
 }
 
+// Threads that stick exactly are bristles far stiffer than described. They were called guide friction with
+// backlash.
+TEST(Descent, FindsThreadsThatStickWithoutAnEffect) {
+  plant::Rig truth;
+  truth.friction.memory = plant::FrictionMemory::coulomb;
+  const Study study(diagnose::small(truth), {.threads = 2});
+  const Error error(study.rows,
+                    study.simulator.wander(study.dictionary.setting(study.dictionary.described())));
+  Model model(study.problem, study.dictionary.nominal(), error);
+  model.look();
+  EXPECT_GT(model.left(), 1.5);  // counts
+  model.settle({});
+  EXPECT_LT(model.left(), 0.8);
+  EXPECT_GT(study.dictionary.setting(model.point).rig.friction.bristle_stiffness_N_per_m, 3e6);
+}
+
+TEST(Dictionary, WhatIsKnownToAFactorStaysWithinFourOfThem) {
+  domain::Dataset data;
+  data.runs.emplace_back().read("contraction", {0.0, 0.1});
+  const std::string path = "friction.bristle_stiffness";
+  const auto usual = free_of(data, path);
+  EXPECT_NEAR(usual.highest / usual.origin, std::exp(4.0), 1e-9);
+  EXPECT_NEAR(usual.origin / usual.lowest, std::exp(4.0), 1e-9);
+  data.rig.spreads = {{path, 1e4}};  // somebody has measured it
+  EXPECT_EQ(free_of(data, path).scale, 1e4);
+  data.rig.friction.memory = plant::FrictionMemory::coulomb;  // which has none
+  EXPECT_EQ(std::ranges::count(Dictionary(data, 0.0).parameters, path, &Dictionary::Free::path), 0);
+}
+
 // Rounding moves a reading by a step at most; further off its zero is wrong, which is a fault to be named.
 TEST(Dictionary, WhatIsWrittenCoarselyIsOffByAStepAtMost) {
   domain::Dataset data;

@@ -79,10 +79,10 @@ TEST(NightlyDiagnose, TriesFurtherEffectsWhereThoseThatPromiseMostDoNotHelp) {
 // While its motion is met badly, what a little friction of the guide promises is below chance; as a fit would
 // count it, it is far above.
 TEST(NightlyDiagnose, TriesWhatPromisesMoreThanChanceAsAFitWouldCountIt) {
-  const auto found =
-      diagnosis_of(hide(kind_titled("guide_friction small"), 812, {.bench = Bench::other_size}).data, 0);
+  const auto hidden = hide(kind_titled("guide_friction small"), 812, {.bench = Bench::other_size});
+  const auto found = diagnosis_of(hidden.data, 0);
   ASSERT_TRUE(names_only(found, "guide_friction"));
-  EXPECT_TRUE(surrounds(found.effects[0].parameters[0], 0.0083));
+  EXPECT_TRUE(surrounds(found.effects[0].parameters[0], hidden.truth.front().value));
 }
 
 // Beside the tube and the leak, friction that is three deviations off imitates the guide's, and stays there.
