@@ -122,20 +122,20 @@ class Columns {
     map_ =
         with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
     Compared all;
-    std::map<std::string, Compared> forces;  // of cords, by their keys
+    std::map<std::string, std::vector<Compared>> forces;  // of cords, by their keys
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const auto& readings = data_.runs[i].readings;
       all.add(i, data_.runs[i], expected_[i]);
       for (std::size_t reading = 1; reading < readings.size(); ++reading)
         if (const plant::Channel& channel = readings[reading].channel; channel.signal->key == "force")
-          forces[channel.key_in_dataset()].add(i, data_.runs[i], expected_[i], reading);
+          forces[channel.key_in_dataset()].push_back(compared(i, reading));
     }
     if (data_.judged() == domain::Judged::contraction && findings_.empty()) only_gain_or_zero(all);
     if (data_.judged() == domain::Judged::angle) angle(all);
-    if (data_.judged() == domain::Judged::force) force("force", all, false);
+    if (data_.judged() == domain::Judged::force) judge(force("force", false), all);
     if (const domain::Reading& read = data_.runs.front().judged(); read.channel.is_pressure())
       judge(pressure(read.channel), all);
-    for (const auto& [key, beside] : forces) force(key, beside, true);
+    for (const auto& [key, runs] : forces) load_cell(key, runs);
     for (const domain::Reading& read : data_.runs.front().readings)
       if (read.channel.muscle == 1)
         if (auto found = of_the_other_muscle(data_, expected_, map_, *read.channel.signal))
@@ -191,14 +191,24 @@ class Columns {
   }
 
   // What hangs on a cord says how large its force is, whatever moves it.
-  void force(const std::string& key, const Compared& rows, bool by_mean) {
-    judge({.key = key,
-           .place = map_[key],
-           .units = {{"N", 1.0}, {"kN", 1e3, of_columns.same_kilo}, {"kgf", plant::gravity_m_per_s2}},
-           .shown = " N",
-           .opposite = by_mean ? of_columns.opposite_mean : of_columns.opposite,
-           .by_mean = by_mean},
-          rows);
+  Quantity force(const std::string& key, bool by_mean) const {
+    return {.key = key,
+            .place = map_[key],
+            .units = {{"N", 1.0}, {"kN", 1e3, of_columns.same_kilo}, {"kgf", plant::gravity_m_per_s2}},
+            .shown = " N",
+            .opposite = by_mean ? of_columns.opposite_mean : of_columns.opposite,
+            .by_mean = by_mean};
+  }
+  void load_cell(const std::string& key, const std::vector<Compared>& runs) {
+    const Quantity quantity = force(key, true);
+    Compared all;
+    for (const Compared& one : runs) all.add(one);
+    if (!judge(quantity, all) || !data_.rig.lifts_a_load()) return;
+    const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::force);
+    if (const Unit* unit = quantity.unit_said())
+      if (auto found = other_zero_of_load_cell(runs, key, quantity.place, unit->size,
+                                               sheet != nullptr ? sheet->accuracy : 0.0))
+        findings_.push_back(std::move(*found));
   }
 
   Quantity pressure(const plant::Channel& gauge) const {

@@ -30,6 +30,11 @@ struct Compared {
       model.push_back(simulated[k]);
     }
   }
+  void add(const Compared& more) {
+    runs.insert(runs.end(), more.runs.begin(), more.runs.end());
+    measured.insert(measured.end(), more.measured.begin(), more.measured.end());
+    model.insert(model.end(), more.model.begin(), more.model.end());
+  }
 };
 
 /// A decoder that counts every second edge, or every edge twice.
@@ -62,6 +67,10 @@ std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::
 /// to it. `accuracy_Pa`: rms.
 std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
                                            domain::ColumnPlace place, double accuracy_Pa);
+/// A load cell that reads the same too much or too little whatever hangs. `unit_N`: of its column; of each
+/// run alone.
+std::optional<Finding> other_zero_of_load_cell(const std::vector<Compared>& runs, const std::string& key,
+                                               domain::ColumnPlace place, double unit_N, double accuracy_N);
 /// Readings of two muscles that are each other's. `map`: with our names where it says none.
 std::optional<Finding> of_the_other_muscle(const domain::Dataset& data, const std::vector<Expected>& expected,
                                            const domain::ColumnMap& map, const plant::Signal& signal);

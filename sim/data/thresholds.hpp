@@ -51,6 +51,7 @@ struct ColumnThresholds {
   double atmosphere = 0.2;    ///< relative: an offset so near to it is it
   double zero_Pa = 0.2e5, zero_accuracies = 5.0;  ///< no gauge's own zero is off by more, nor by so many rms
   double same_zero = 0.25;                        ///< of that offset: all runs agree on it
+  double zero_of_load_cell = 0.02;  ///< of the largest load: no load cell's own zero is off by more
 };
 
 /// Loads, weighed by the muscle.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <sim/data/odd_readings.hpp>
@@ -156,6 +157,22 @@ TEST(Sanity, AZeroOfAGaugeThatWasForgottenIsAskedFor) {
   EXPECT_TRUE(holds(says(data), "muscle_pressure reads 0.4"));
   read_more(-0.4e5, {0, 1, 2});
   for (const std::string& one : said(data)) EXPECT_EQ(one.find(" reads 0."), std::string::npos) << one;
+}
+
+// Of loads that are off, the muscle lifts them otherwise, too; of a wrong factor it grows with the load.
+TEST(Sanity, AZeroOfALoadCellThatWasForgottenIsAskedFor) {
+  const auto told = [](double gain, double zero_N) {
+    auto data = sound();
+    data.columns["force"] = {.column = "F", .unit = "N", .factor = 2.5};
+    for (domain::Run& run : data.runs)
+      run.read("force", std::vector(run.rows(), gain * run.load_kg * plant::gravity_m_per_s2 + zero_N));
+    return fmt::format("{}", fmt::join(said(data), "\n"));
+  };
+  EXPECT_EQ(told(1.0, 1.0), "");
+  EXPECT_TRUE(holds(told(1.0, 12.0), "warning: all runs: force reads 11.", " N more than hangs there, ",
+                    "About columns: {force: {column: F, unit: N, zero: 4.", ", factor: 2.5}}"));
+  EXPECT_TRUE(holds(told(1.0, -30.0), "force reads 30", " N less than hangs there"));
+  EXPECT_TRUE(lacks(told(1.08, 0.0), "hangs there"));
 }
 
 TEST(Sanity, ARunThatBeginsOnItsWayIsToldWithItsSpeed) {
