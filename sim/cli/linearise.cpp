@@ -134,10 +134,12 @@ linear::Question question_of(const LineariseOptions& options, const plant::Rig& 
   if (options.friction == "sticking") question.threads = linear::Threads::sticking;
   if (options.valve == "filling") question.opening = linear::Opening::filling;
   if (options.valve == "venting") question.opening = linear::Opening::venting;
+  if (options.swing_m_per_s > 0.0 && question.threads == linear::Threads::sticking)
+    throw CLI::ValidationError("--swing: threads that stick damp no swing: take --friction sliding");
   if (options.swing_m_per_s > 0.0) question.swing_m_per_s = options.swing_m_per_s;
   if (!options.margins.empty())
-    question.margins =
-        linear::Wanted{.phase_rad = positive_quantity("--margins", options.margins, "rad", 1.5)};
+    question.margins = linear::Wanted{
+        .phase_rad = plant::degree_rad * positive_quantity("--margins", options.margins, "deg", 85.0)};
   if (!options.lqr.empty()) {
     const linear::Place one = place_of("--lqr", options.lqr, rig);
     if (one.of != linear::Place::Of::command || !(one.value > 0.0))

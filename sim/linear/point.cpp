@@ -196,9 +196,15 @@ void name_ends(Linear& linear, bool angle, double angle_per_ratio) {
   linear.output = linear.output(outputs).eval();
 }
 
+/// What a place is given by, as messages tell it.
+struct Shown {
+  const char *named, *unit;
+  double size;  ///< of the unit
+};
+
 /// The command that brings `what` of the settled rig to a value, between the ends of what the valve answers
 /// to.
-double command_for(const plant::Rig& rig, double load_kg, double value, const char* named, const auto& what) {
+double command_for(const plant::Rig& rig, double load_kg, double value, const Shown& as, const auto& what) {
   const auto range = controllers::working_range(run::knowledge_of(rig, {}));
   const auto reached = [&](double current_mA) {
     return what(Settled(rig, load_kg, commands_of(rig, current_mA)));
@@ -206,8 +212,9 @@ double command_for(const plant::Rig& rig, double load_kg, double value, const ch
   double low = range.lowest_mA, high = range.highest_mA;
   const double lowest = reached(low), highest = reached(high);
   if (!(lowest <= value && value <= highest))
-    throw OutOfReach(fmt::format("{} {:.4g} is out of reach: commands give {:.4g} to {:.4g}", named, value,
-                                 lowest, highest));
+    throw OutOfReach(fmt::format("a {} of {:.4g}{} is out of reach: commands give {:.4g} to {:.4g}{}",
+                                 as.named, value / as.size, as.unit, lowest / as.size, highest / as.size,
+                                 as.unit));
   for (int i = 0; i < 36; ++i) {
     const double middle = 0.5 * (low + high);
     (reached(middle) < value ? low : high) = middle;
@@ -227,14 +234,15 @@ double command_at(const plant::Rig& rig, double load_kg, const Place& place) {
                                      place.value));
       return place.value;
     case Place::Of::pressure:
-      return command_for(rig, load_kg, place.value, "a muscle pressure [Pa] of",
+      return command_for(rig, load_kg, place.value, {"muscle pressure", " bar", plant::Pa_per_bar},
                          [](const Settled& at) { return at.state().side.muscle_pressure_Pa; });
     case Place::Of::position:
       break;
   }
-  return command_for(rig, load_kg, place.value,
-                     rig.has_angle() ? "a joint angle [rad] of" : "a contraction ratio of",
-                     [](const Settled& at) { return at.position(); });
+  return command_for(
+      rig, load_kg, place.value,
+      rig.has_angle() ? Shown{"joint angle", " deg", plant::degree_rad} : Shown{"contraction ratio", "", 1.0},
+      [](const Settled& at) { return at.position(); });
 }
 
 /// How late the position is read, over many ticks.

@@ -180,6 +180,13 @@ TEST_F(Linearise, SaysWhatItCannotDo) {
   const Said far = run("linearise thesis --at 0.9");
   EXPECT_EQ(far.status, 65);
   EXPECT_TRUE(holds(far.err, "a contraction ratio of 0.9 is out of reach: commands give "));
+  EXPECT_TRUE(holds(run("linearise thesis --at '0 bar'").err,
+                    "a muscle pressure of 0 bar is out of reach: commands give 0.5 to 5 bar"));
+  EXPECT_TRUE(
+      holds(run("linearise thesis_pair --at '90 deg'").err, "a joint angle of 90 deg is out of reach"));
+  EXPECT_TRUE(holds(run("linearise thesis --friction sticking --swing '1 m/s'").err,
+                    "--swing: threads that stick damp no swing: take --friction sliding"));
+  EXPECT_TRUE(holds(run("linearise thesis --margins '2 rad'").err, "must be above 0 and at most 85 deg"));
   write_text(scratch / "sealed.yaml", "schema: mckibben-rig/1\nvalve: {kind: none}\n");
   const Said sealed = run("linearise sealed.yaml");
   EXPECT_EQ(sealed.status, 65);
@@ -192,7 +199,7 @@ TEST_F(Linearise, SaysWhatItCannotDo) {
                     "--at 15: no contraction ratio is as large; did you mean \"15 mA\"?"));
   EXPECT_TRUE(holds(run("linearise thesis --lqr 0.1").err, "--lqr 0.1: a command is wanted, as \"1 mA\""));
   EXPECT_TRUE(holds(run("linearise thesis --margins 60").err,
-                    "--margins: 60 has no unit; it is measured in rad: for example 60 deg"));
+                    "--margins: 60 has no unit; it is measured in deg: for example 60 deg"));
   EXPECT_TRUE(holds(run("linearise thesis --load 11").err, "--load: 11 has no unit; it is measured in kg"));
   EXPECT_TRUE(holds(run("linearise thesis --load '500 g' --load '501 kg'").err,
                     "--load: 501 kg must be above 0 and at most 500 kg"));
