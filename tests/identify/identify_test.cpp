@@ -111,7 +111,14 @@ TEST(Dictionary, WhatIsKnownToAFactorStaysWithinFourOfThem) {
   data.rig.spreads = {{path, 1e4}};  // somebody has measured it
   EXPECT_EQ(free_of(data, path).scale, 1e4);
   data.rig.friction.memory = plant::FrictionMemory::coulomb;  // which has none
-  EXPECT_EQ(std::ranges::count(Dictionary(data, 0.0).parameters, path, &Dictionary::Free::path), 0);
+  const auto fitted = [&] {
+    return std::ranges::count(Dictionary(data, 0.0).parameters, path, &Dictionary::Free::path);
+  };
+  EXPECT_EQ(fitted(), 0);
+  data.rig = {};
+  EXPECT_EQ(fitted(), 1);
+  data.runs.front().measured.emplace().point_s = 5.0;  // threads rest at each
+  EXPECT_EQ(fitted(), 0);
 }
 
 // Rounding moves a reading by a step at most; further off its zero is wrong, which is a fault to be named.
