@@ -111,10 +111,31 @@ class ScenarioChecker {
       const double radius_m = scenario_.rig.joint.wheel_radius_m;
       const auto [lowest, highest] = controllers::range(target.angle, scenario_.duration_s, 1.0);
       const Place place = node.find("angle")->place;
+      warn_of_late_moves(target.angle, *node.find("angle"));
       check_contraction(1, pair()->contraction_ratio, radius_m * highest, scenario_.rig.muscle, place);
       check_contraction(2, pair()->opposite_contraction_ratio, -radius_m * lowest, pair()->opposite.muscle,
                         place);
     }
+  }
+
+  /// A move that would begin when the run is over is never made.
+  template <class Value>
+  void warn_of_late_moves(const controllers::TargetOf<Value>& target, const Node& node) {
+    const auto look = [&](const auto& moves, std::string_view key) {
+      const auto late =
+          std::ranges::find_if(moves, [&](const auto& move) { return move.at_s >= scenario_.duration_s; });
+      if (late == moves.end()) return;
+      const Node& first = node.find(key)->children[static_cast<std::size_t>(late - moves.begin())];
+      problems_.warning(source_, first.place,
+                        fmt::format("at = {:g} s is not before the end: duration = {:g} s; what is wanted "
+                                    "from here on is never begun",
+                                    late->at_s, scenario_.duration_s));
+    };
+    std::visit(
+        [&](const auto& path) {
+          if constexpr (requires { path.moves; }) look(path.moves, "moves");
+        },
+        target);
   }
 
   void check_contraction(int muscle, double mounted, double rise_m, const plant::Muscle& of, Place place) {
@@ -254,6 +275,10 @@ class ScenarioChecker {
       stays_at_0(scenario_.angle);
       return;
     }
+    if (scenario_.rig.lever() != nullptr)
+      warn_of_late_moves(scenario_.angle, list("target"));
+    else
+      warn_of_late_moves(scenario_.target, list("target"));
     if (scenario_.rig.lever() != nullptr) return check_lever_target(list("target").place);
     const auto [lowest, highest] =
         controllers::range(scenario_.target, scenario_.duration_s, scenario_.rig.muscle.rest_length_m);

@@ -118,6 +118,18 @@ TEST(Scenario, WarnsOfRisk) {
   EXPECT_NE(warnings[0].message.find("risk to the muscle (T 2.3)"), std::string::npos);
 }
 
+TEST(Scenario, WarnsOfMovesThatAreNeverMade) {
+  std::string text = good_scenario;
+  const std::string duration = "duration: ";
+  const std::size_t at = text.find(duration) + duration.size();
+  text.replace(at, text.find('\n', at) - at, "600 ms");
+  std::vector<Problem> warnings;
+  read_text(text, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].message.find(" is not before the end: duration = 0.6 s"), std::string::npos)
+      << warnings[0].message;
+}
+
 TEST(Scenario, WarnsOfValuesThatNobodyKnows) {
   std::string text = good_scenario;
   const std::string angle = "braid_angle: 21 deg}";
