@@ -117,6 +117,9 @@ TEST(Dictionary, WhatIsKnownToAFactorStaysWithinFourOfThem) {
   EXPECT_EQ(fitted(), 0);
   data.rig = {};
   EXPECT_EQ(fitted(), 1);
+  data.recorded.start = domain::Start::moving;
+  EXPECT_EQ(fitted(), 0);
+  data.recorded.start = domain::Start::settled;
   data.runs.front().measured.emplace().point_s = 5.0;  // threads rest at each
   EXPECT_EQ(fitted(), 0);
 }
