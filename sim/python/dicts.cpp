@@ -158,6 +158,11 @@ std::string path_of(const py::object& from) {
 }
 
 void require_path(const py::object& from, const std::string& name) {
+  if (py::isinstance<py::str>(from) && from.contains("\n"))
+    throw py::value_error(
+        fmt::format("{}: this looks like the text of a file: give the file's path, or its text as a dict "
+                    "(yaml.safe_load)",
+                    name));
   if (py::isinstance<py::str>(from) || py::isinstance<py::bytes>(from) || py::hasattr(from, "__fspath__"))
     return;
   throw py::type_error(fmt::format("{} = {}: must be a name, a path or a dict", name, repr_of(from)));

@@ -16,6 +16,11 @@ PROGRAM = sys.argv[1]
 
 
 class Rigs(unittest.TestCase):
+    def test_the_text_of_a_file_is_no_path(self):
+        text = "schema: mckibben-rig/1\nbase: thesis\n"
+        with self.assertRaisesRegex(ValueError, "^rig: this looks like the text of a file: give the file's path"):
+            mckibben.Rig(text)
+
     def test_by_name_path_and_dict(self):
         thesis = mckibben.Rig()
         self.assertEqual(thesis, mckibben.Rig("thesis"))
