@@ -227,9 +227,9 @@ std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const con
   const auto cycle = limit_cycle(
       {.target = wanted.ratios, .contraction = contraction, .current_mA = {}, .tick_s = rig.tick_s});
   if (!cycle) return "";
-  std::string text =
-      fmt::format("it oscillates where its target rests, by ±{:.2g} mm with a period of {:.2g} s",
-                  1e3 * cycle->amplitude * rig.muscle.rest_length_m, cycle->period_s);
+  std::string text = fmt::format(
+      "it oscillates where its target rests from {:.3g} s on, by ±{:.2g} mm with a period of {:.2g} s",
+      cycle->from_s, 1e3 * cycle->amplitude * rig.muscle.rest_length_m, cycle->period_s);
   if (const auto* pid = controllers::part_of<controllers::PidTerms>(settings))
     text += fmt::format(
         "; a lower proportional{}, a longer integral_time or, against friction, a dead_zone of "

@@ -91,7 +91,8 @@ std::optional<LimitCycle> limit_cycle(const Followed& run) {
       const double period = 2.0 * static_cast<double>(at.back() - at.front()) / ways.size();  // ticks
       if (static_cast<double>(end - begin - at.back()) <= period && ways.back() >= cycle_stays * ways.front())
         return LimitCycle{.amplitude = 0.5 * std::accumulate(ways.begin(), ways.end(), 0.0) / ways.size(),
-                          .period_s = period * run.tick_s};
+                          .period_s = period * run.tick_s,
+                          .from_s = static_cast<double>(begin) * run.tick_s};
     }
     begin = end;
   }

@@ -61,6 +61,7 @@ plant::Rig within_rules(const plant::Rig& described, const domain::Variation& va
 /// How a load goes round and round where its target rests; none if it comes to rest.
 struct LimitCycle {
   double amplitude, period_s;  ///< means; of contraction ratio, half of the way between two turns
+  double from_s;               ///< since when the target rests there
 };
 std::optional<LimitCycle> limit_cycle(const Followed& run);
 
