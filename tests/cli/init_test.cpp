@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Only as long as the first move needs to begin.
+/// Only as long as all moves need to begin.
 std::string shortened(const std::string& scenario) {
-  return std::regex_replace(scenario, std::regex("\nduration: [^\n]*"), "\nduration: 0.6 s");
+  return std::regex_replace(scenario, std::regex("\nduration: [^\n]*"), "\nduration: 3.1 s");
 }
 
 TEST(Init, WritesAScenarioThatRuns) {
