@@ -256,6 +256,12 @@ std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::
 
 namespace {
 
+/// Whether all runs are off by that.
+bool agree_on(double off, const std::vector<double>& offs) {
+  return std::ranges::all_of(
+      offs, [&](double one) { return std::abs(one - off) <= of_gains.same_zero * std::abs(off); });
+}
+
 /// What a gauge reads more, in the middle, as long as the model rests at its beginning, at its lowest; none
 /// where it rests for a few rows only. Nothing lags there.
 std::optional<double> off_at_beginning(const Compared& gauge) {
@@ -312,12 +318,9 @@ std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, co
   const std::optional<double> unit_Pa = size_Pa(place.unit);
   if (offs_Pa.empty() || !unit_Pa) return std::nullopt;
   const double off_Pa = median(offs_Pa);
-  const auto differs = [&](double one) {
-    return std::abs(one - off_Pa) > of_gains.same_zero * std::abs(off_Pa);
-  };
   const auto comes_back = [&](double one) { return one / off_Pa < 1.0 - of_gains.same_zero; };
   if (std::abs(off_Pa) < std::max(of_gains.zero_Pa, of_gains.zero_accuracies * accuracy_Pa) ||
-      std::ranges::any_of(offs_Pa, differs) || std::ranges::any_of(lowest_Pa, comes_back))
+      !agree_on(off_Pa, offs_Pa) || std::ranges::any_of(lowest_Pa, comes_back))
     return std::nullopt;
   place.zero = domain::significant(place.zero + off_Pa / *unit_Pa / place.factor, digits - 1);
   found.message = fmt::format(
@@ -339,13 +342,10 @@ std::optional<Finding> other_zero_of_load_cell(const std::vector<Compared>& runs
   }
   if (offs_N.empty()) return std::nullopt;
   const double off_N = median(offs_N), most_N = *std::ranges::max_element(hangs_N);
-  const auto differs = [&](double one) {
-    return std::abs(one - off_N) > of_gains.same_zero * std::abs(off_N);
-  };
   // Of one load alone it could as well be its label; of a wrong factor it grows with the load.
   if (std::abs(off_N) <
           std::max(of_gains.zero_of_load_cell * most_N, of_gains.zero_accuracies * accuracy_N) ||
-      std::ranges::any_of(offs_N, differs) ||
+      !agree_on(off_N, offs_N) ||
       most_N < (1.0 + 2.0 * of_gains.same_zero) * *std::ranges::min_element(hangs_N))
     return std::nullopt;
   place.zero = domain::significant(place.zero + off_N / unit_N / place.factor, digits - 1);

@@ -183,9 +183,14 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
   for (std::size_t i = 0, shared = parameters.size(); i < shared; ++i) {
     Free p = parameters[i];
     if (!p.both_sides || p.path == "valve.supply_pressure") continue;
-    p.highest = p.logarithmic ? p.highest / p.origin : p.highest;
-    p.lowest = p.logarithmic ? 1.0 / p.highest : -p.highest;
-    p.origin = p.logarithmic ? 1.0 : 0.0;
+    if (p.logarithmic) {  // a factor
+      p.highest /= p.origin;
+      p.lowest = 1.0 / p.highest;
+      p.origin = 1.0;
+    } else {
+      p.lowest = -p.highest;
+      p.origin = 0.0;
+    }
     p.difference = true;
     parameters.push_back(p);
   }

@@ -121,21 +121,19 @@ class ScenarioChecker {
   /// A move that would begin when the run is over is never made.
   template <class Value>
   void warn_of_late_moves(const controllers::TargetOf<Value>& target, const Node& node) {
-    const auto look = [&](const auto& moves, std::string_view key) {
-      const auto late =
-          std::ranges::find_if(moves, [&](const auto& move) { return move.at_s >= scenario_.duration_s; });
-      if (late == moves.end()) return;
-      const Node& first = node.find(key)->children[static_cast<std::size_t>(late - moves.begin())];
-      problems_.warning(source_, first.place,
-                        fmt::format("at = {:g} s is not before the end: duration = {:g} s; what is wanted "
-                                    "from here on is never begun",
-                                    late->at_s, scenario_.duration_s));
+    const auto look = [&](const auto& path) {
+      if constexpr (requires { path.moves; }) {
+        const auto late = std::ranges::find_if(
+            path.moves, [&](const auto& move) { return move.at_s >= scenario_.duration_s; });
+        if (late == path.moves.end()) return;
+        const Node& first = node.find("moves")->children[static_cast<std::size_t>(late - path.moves.begin())];
+        problems_.warning(source_, first.place,
+                          fmt::format("at = {:g} s is not before the end: duration = {:g} s; what is wanted "
+                                      "from here on is never begun",
+                                      late->at_s, scenario_.duration_s));
+      }
     };
-    std::visit(
-        [&](const auto& path) {
-          if constexpr (requires { path.moves; }) look(path.moves, "moves");
-        },
-        target);
+    std::visit(look, target);
   }
 
   void check_contraction(int muscle, double mounted, double rise_m, const plant::Muscle& of, Place place) {
@@ -275,11 +273,11 @@ class ScenarioChecker {
       stays_at_0(scenario_.angle);
       return;
     }
-    if (scenario_.rig.lever() != nullptr)
+    if (scenario_.rig.lever() != nullptr) {
       warn_of_late_moves(scenario_.angle, list("target"));
-    else
-      warn_of_late_moves(scenario_.target, list("target"));
-    if (scenario_.rig.lever() != nullptr) return check_lever_target(list("target").place);
+      return check_lever_target(list("target").place);
+    }
+    warn_of_late_moves(scenario_.target, list("target"));
     const auto [lowest, highest] =
         controllers::range(scenario_.target, scenario_.duration_s, scenario_.rig.muscle.rest_length_m);
     const double largest = plant::Braid(scenario_.rig.muscle).largest_contraction_ratio();

@@ -174,8 +174,7 @@ TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
   EXPECT_EQ(swinging(4e-3),
             "it oscillates where its target rests from 0 s on, by ±1.2 mm with a period of 0.38 s; a lower "
             "proportional (it is 120 mA), a longer integral_time or, against friction, a dead_zone of 0.008 "
-            "would help: linearise "
-            "shows the margins");
+            "would help: linearise shows the margins");
   run.limits = {4.0, 20.0};
   run.metrics.at_lowest_current = 0.6;
   rig.valve.command_unit = plant::CommandUnit::V;
