@@ -40,6 +40,7 @@ class ControllerChecker {
         load_calibration(*calibrated, controllers::weighing_of(scenario_.controllers[i]), node);
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
       check_sets_a_pressure(scenario_.controllers[i], *node.find("kind"));
+      warn_of_held(scenario_.controllers[i], node);
       if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())
         load_believed_rig(name, *node.find("rig"));
@@ -56,6 +57,19 @@ class ControllerChecker {
                       fmt::format("kind = {}: its commands are pressures, and the rig's on_off valve sets a "
                                   "flow; model_inverse and pid can drive it",
                                   kind.text));
+  }
+
+  /// P0 cannot be held and make the joint as stiff as wanted.
+  void warn_of_held(const controllers::Settings& settings, const Node& node) {
+    const auto* terms = controllers::part_of<controllers::JointTerms>(settings);
+    const bool stiffness = std::ranges::any_of(
+        scenario_.targets, [](const domain::JointTarget& target) { return target.stiffness.has_value(); });
+    if (!stiffness || terms == nullptr || !terms->co_contraction_Pa) return;
+    const Node& held = *node.find("co_contraction");
+    problems_.warning(source_, held.place,
+                      fmt::format("co_contraction = {}: it is held, so {} does not follow the stiffness that "
+                                  "targets ask for; leave co_contraction out to follow it",
+                                  held.text, controllers::name_of(settings)));
   }
 
   void check_filter(const controllers::CommandFilter& filter, const Node& frequency) {

@@ -130,6 +130,27 @@ TEST(Scenario, WarnsOfMovesThatAreNeverMade) {
       << warnings[0].message;
 }
 
+TEST(Scenario, WarnsOfAStiffnessBesideAHeldCoContraction) {
+  const auto messages = [](const std::string& controller) {
+    std::vector<Problem> warnings;
+    read_text(R"(schema: mckibben-pair/1
+duration: 1 s
+targets:
+  - angle: {kind: sine, mean: 0 deg, amplitude: 10 deg, period: 1 s}
+    stiffness: {kind: ramps, start: 12 N.m/rad, moves: []}
+controllers: [)" + controller + "]\n",
+              &warnings);
+    return warnings;
+  };
+  EXPECT_TRUE(messages("{kind: pid}").empty());
+  const auto held = messages("{kind: pid, co_contraction: 1.5 bar}");
+  ASSERT_EQ(held.size(), 1u);
+  EXPECT_EQ(held[0].place.line, 6u);
+  EXPECT_EQ(held[0].message,
+            "co_contraction = 1.5 bar: it is held, so pid does not follow the stiffness that targets ask for; "
+            "leave co_contraction out to follow it");
+}
+
 TEST(Scenario, WarnsOfValuesThatNobodyKnows) {
   std::string text = good_scenario;
   const std::string angle = "braid_angle: 21 deg}";
