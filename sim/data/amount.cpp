@@ -20,33 +20,25 @@ std::string shown(double value, int digits) {
 
 }  // namespace
 
-std::string amount_of(Judged judged, double value, const plant::Rig& rig, int digits) {
+Shown shown_in(Judged judged, const plant::Rig& rig) {
   switch (judged) {
     case Judged::force:
-      return shown(value, digits) + " N";
+      return {"N", 1.0, 3};
     case Judged::angle:
-      return shown(value / plant::degree_rad, digits) + " deg";
+      return {"deg", plant::degree_rad, 4};
     case Judged::pressure:
-      return std::abs(value) < 1e4 ? shown(1e3 * value / plant::Pa_per_bar, digits) + " mbar"
-                                   : shown(value / plant::Pa_per_bar, digits) + " bar";
+      return {"mbar", 1e-3 * plant::Pa_per_bar, 3};
     case Judged::contraction:
       break;
   }
-  return shown(1e3 * value * rig.muscle.rest_length_m, digits) + " mm";
+  return {"mm", 1e-3 / rig.muscle.rest_length_m, 3};
 }
 
-std::string_view unit_in_words(Judged judged) {
-  switch (judged) {
-    case Judged::force:
-      return "N";
-    case Judged::angle:
-      return "rad";
-    case Judged::pressure:
-      return "Pa";
-    case Judged::contraction:
-      break;
-  }
-  return "in contraction ratio";
+std::string amount_of(Judged judged, double value, const plant::Rig& rig, int digits) {
+  if (judged == Judged::pressure && std::abs(value) >= 1e4)
+    return shown(value / plant::Pa_per_bar, digits) + " bar";
+  const Shown in = shown_in(judged, rig);
+  return shown(value / in.size, digits) + ' ' + std::string(in.unit);
 }
 
 std::string_view si_unit(const plant::Signal& signal) {

@@ -10,10 +10,16 @@ namespace mckibben::data {
 
 using domain::Judged;
 
+/// In what the judged reading is told: mm of the load's height, N, deg, mbar.
+struct Shown {
+  std::string_view unit;
+  double size;   ///< of one, in what it is calculated in
+  int decimals;  ///< in tables
+};
+Shown shown_in(Judged judged, const plant::Rig& rig);
+
 /// An amount of the judged reading: "1.2 mm" of the load's height, "3.4 N", "0.25 deg".
 std::string amount_of(Judged judged, double value, const plant::Rig& rig, int digits = 2);
-/// What such numbers are in: "in contraction ratio", "N", "rad".
-std::string_view unit_in_words(Judged judged);
 
 /// The unit in which readings of it are calculated: Pa of what its columns hold in bar.
 std::string_view si_unit(const plant::Signal& signal);

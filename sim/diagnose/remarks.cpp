@@ -11,35 +11,18 @@
 #include <sim/diagnose/remarks.hpp>
 
 namespace mckibben::diagnose {
-namespace {
-
-std::string noise_of_given_pressure(const domain::Dataset& data, const NoiseFloor& floor) {
-  switch (data.judged()) {
-    case Judged::force:
-      return fmt::format("force, {:.2g} N", floor.given);
-    case Judged::pressure:
-      return "pressure, " + data::amount_of(Judged::pressure, floor.given, data.rig);
-    case Judged::angle:
-      return fmt::format("joint, {}", data::amount_of(Judged::angle, floor.given, data.rig));
-    case Judged::contraction:
-      break;
-  }
-  return fmt::format("motion, {:.2g} in contraction ratio", floor.given);
-}
-
-}  // namespace
 
 std::vector<std::string> noise_in_words(const domain::Dataset& data, const NoiseFloor& floor) {
   if (floor.repeats >= floor.judged)
     return {
-        fmt::format("equal runs differ by {:.2g} {} (rms over sqrt 2), more than a count "
-                    "and its jitter explain: this is taken for the noise floor",
-                    floor.repeats, data::unit_in_words(data.judged()))};
+        fmt::format("equal runs differ by {} (rms over sqrt 2), more than a count and its jitter explain: "
+                    "this is taken for the noise floor",
+                    data::amount_of(data.judged(), floor.repeats, data.rig))};
   if (floor.noisy)
     return {
-        fmt::format("{} scatters by {:.2g} from tick to tick (rms), far more than counts "
+        fmt::format("the {} scatters by {} from tick to tick (rms), far more than counts "
                     "do: this is taken for the noise floor",
-                    data.judged() == Judged::angle ? "angle_rad" : "contraction_ratio", floor.jitter)};
+                    plant::name_of(data.judged()), data::amount_of(data.judged(), floor.jitter, data.rig))};
   return {};
 }
 
@@ -74,9 +57,10 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         rows.inputs));
   if (rows.given_noise_Pa > 0.0)
     words.push_back(fmt::format(
-        "the noise of the given pressure, {:.2g} mbar, {}; what it does to the {}, counts in the noise floor",
+        "the noise of the given pressure, {:.2g} mbar, {}; what it does to the {}, {}, counts in the noise "
+        "floor",
         1e-2 * rows.given_noise_Pa, rows.smoothed ? "was smoothed" : "was left as it is",
-        noise_of_given_pressure(data, floor)));
+        plant::name_of(data.judged()), data::amount_of(data.judged(), floor.given, data.rig)));
   if (rows.slack > 0)
     words.push_back(
         fmt::format("{} readings of force are 0, a slack cord: they do not show how far the muscle is from "

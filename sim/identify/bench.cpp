@@ -318,8 +318,7 @@ class FaultReport {
   }
 
   std::string unit_of_reading() const {
-    return data_.judged() == domain::Judged::contraction ? "1"
-                                                         : std::string(data::unit_in_words(data_.judged()));
+    return std::string(data::si_unit(*data_.runs.front().judged().channel.signal));
   }
 
   std::string judged_key(const domain::Run& of) const { return of.judged().channel.key_in_dataset(); }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <sim/data/amount.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/input/field_kinds.hpp>
 #include <sim/output/diagnosis_results.hpp>
@@ -70,19 +71,8 @@ std::string moved(const Diagnosis& diagnosis) {
 std::string gap(const Diagnosis& diagnosis, const plant::Rig& rig) {
   const auto& gap = diagnosis.gap;
   Grid grid({"nominal", "recalibrated", "corrected", "noise floor", "closed"}, 0);
-  const auto error = [&](double value) {
-    switch (gap.judged) {
-      case diagnose::Judged::force:
-        return fmt::format("{:.3f}", value);
-      case diagnose::Judged::angle:
-        return fmt::format("{:.4f}", value / plant::degree_rad);
-      case diagnose::Judged::pressure:
-        return fmt::format("{:.3f}", 1e3 * value / plant::Pa_per_bar);
-      case diagnose::Judged::contraction:
-        break;
-    }
-    return fmt::format("{:.3f}", 1e3 * rig.muscle.rest_length_m * value);
-  };
+  const data::Shown in = data::shown_in(gap.judged, rig);
+  const auto error = [&](double value) { return fmt::format("{:.{}f}", value / in.size, in.decimals); };
   grid.add({error(gap.nominal_rmse), error(gap.recalibrated_rmse), error(gap.corrected_rmse),
             error(gap.noise_floor), changed(diagnosis) ? fmt::format("{:.1f} %", 100.0 * gap.closed) : "-"});
   const std::string why = why_recalibrated_is_worse(diagnosis);

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <plant/effects.hpp>
+#include <sim/data/amount.hpp>
 #include <sim/diagnose/thresholds.hpp>
 #include <sim/output/diagnosis_words.hpp>
 
@@ -134,17 +135,8 @@ const JudgedWords& words_of(diagnose::Judged judged) {
 }
 
 std::string amount(double value, diagnose::Judged judged, const plant::Rig& rig) {
-  switch (judged) {
-    case diagnose::Judged::force:
-      return three_digits(value) + " N";
-    case diagnose::Judged::angle:
-      return three_digits(value / plant::degree_rad) + " deg";
-    case diagnose::Judged::pressure:
-      return three_digits(1e3 * value / plant::Pa_per_bar) + " mbar";
-    case diagnose::Judged::contraction:
-      break;
-  }
-  return output::height(value, rig);
+  const data::Shown in = data::shown_in(judged, rig);
+  return three_digits(value / in.size) + ' ' + std::string(in.unit);
 }
 
 std::string mass(double kg) {

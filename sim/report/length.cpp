@@ -18,15 +18,13 @@ using output::escaped;
 
 constexpr const char* number_like = "[-+]?[0-9][0-9.]*(?:e[-+]?[0-9]+)?";
 
-/// Its groups: 1 in mm, 2 whether in mm/s; ratios 3 after these words, 5 after those in 4, 7 before these
-/// words; 6 in 1/s.
+/// Its groups: 1 in mm, 2 whether in mm/s; ratios 3 after these words, 5 after those in 4; 6 in 1/s.
 const std::regex& any_length() {
   static const std::regex pattern(
       fmt::format("((?:{0} to )?{0}) mm\\b(/s)?|"
                   "contraction ratio(s? of {0}(?: to {0})?)|"
                   "(reachable one[^.;]*? is )({0})|"
-                  "({0}) /s|"
-                  "({0}) in contraction ratio",
+                  "({0}) /s",
                   number_like));
   return pattern;
 }
@@ -59,8 +57,7 @@ std::string length_found(const std::smatch& found, double mm, std::string_view t
   if (found[3].matched) return either("contraction" + scaled(found.str(3), mm) + " mm", all, tag);
   if (found[5].matched)
     return escaped(found.str(4)) + either(scaled(found.str(5), mm) + " mm", found.str(5), tag);
-  if (found[6].matched) return either(scaled(found.str(6), mm) + " mm/s", all, tag);
-  return either(scaled(found.str(7), mm) + " mm of contraction", all, tag);
+  return either(scaled(found.str(6), mm) + " mm/s", all, tag);
 }
 
 }  // namespace

@@ -138,7 +138,8 @@ duration: 1 s
 targets:
   - angle: {kind: sine, mean: 0 deg, amplitude: 10 deg, period: 1 s}
     stiffness: {kind: ramps, start: 12 N.m/rad, moves: []}
-controllers: [)" + controller + "]\n",
+controllers: [)" + controller +
+                  "]\n",
               &warnings);
     return warnings;
   };
@@ -146,9 +147,10 @@ controllers: [)" + controller + "]\n",
   const auto held = messages("{kind: pid, co_contraction: 1.5 bar}");
   ASSERT_EQ(held.size(), 1u);
   EXPECT_EQ(held[0].place.line, 6u);
-  EXPECT_EQ(held[0].message,
-            "co_contraction = 1.5 bar: it is held, so pid does not follow the stiffness that targets ask for; "
-            "leave co_contraction out to follow it");
+  EXPECT_EQ(
+      held[0].message,
+      "co_contraction = 1.5 bar: it is held, so pid does not follow the stiffness that targets ask for; "
+      "leave co_contraction out to follow it");
 }
 
 TEST(Scenario, WarnsOfValuesThatNobodyKnows) {
