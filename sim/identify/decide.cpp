@@ -31,22 +31,22 @@ double chi_square(double share, std::size_t degrees) {
 
 namespace {
 
-Verdict verdict_of(const Judged& model) {
+Verdict verdict_of(const Scored& model) {
   if (model.described) return Verdict::nothing_missing;
   if (model.general) return Verdict::unknown_effect;
   return model.names.empty() ? Verdict::recalibrate : Verdict::missing_effect;
 }
 
-bool allowed(const Judged& model) {
+bool allowed(const Scored& model) {
   return model.off_sheet < decisive.conflict;
 }
 
-int size_of(const Judged& model) {
+int size_of(const Scored& model) {
   return static_cast<int>(model.names.size()) - (model.described ? 1 : 0);
 }
 
 /// Of another model, by strong evidence.
-bool closes_the_gap_of(const Judged& model, const Judged& other) {
+bool closes_the_gap_of(const Scored& model, const Scored& other) {
   return model.score > other.score + decisive.strong &&
          model.above_noise <= (1.0 - diagnose::thresholds.tell.closed) * other.above_noise &&
          other.above_noise > 0.0;
@@ -54,12 +54,12 @@ bool closes_the_gap_of(const Judged& model, const Judged& other) {
 
 }  // namespace
 
-Decision decide(const std::vector<Judged>& table) {
+Decision decide(const std::vector<Scored>& table) {
   Decision decision;
   decision.best =
-      static_cast<std::size_t>(std::ranges::max_element(table, {}, &Judged::score) - table.begin());
+      static_cast<std::size_t>(std::ranges::max_element(table, {}, &Scored::score) - table.begin());
   double all = 0.0;
-  for (const Judged& model : table) {
+  for (const Scored& model : table) {
     decision.mass.push_back(std::exp(model.score - table[decision.best].score));
     all += decision.mass.back();
   }
@@ -90,7 +90,7 @@ Decision decide(const std::vector<Judged>& table) {
     if (table[i].general) continue;  // many terms are not simple
     // A wide model error makes all predictions alike: what leaves the gap is no simpler way to close it.
     if (closes_the_gap_of(table[reference], table[i])) continue;
-    const Judged& chosen = table[decision.chosen];
+    const Scored& chosen = table[decision.chosen];
     if (!allowed(chosen) || chosen.general || size_of(table[i]) < size_of(chosen) ||
         (size_of(table[i]) == size_of(chosen) && table[i].score > chosen.score))
       decision.chosen = i;

@@ -14,7 +14,7 @@ namespace mckibben::identify {
 using diagnose::Verdict;
 
 /// A model as the decision sees it.
-struct Judged {
+struct Scored {
   std::vector<std::string> names{};  ///< that are at work
   bool described = false;            ///< no parameter is free
   bool general = false;              ///< it has general terms
@@ -32,7 +32,7 @@ struct Decision {
   std::vector<double> mass{};         ///< of each model
 };
 
-Decision decide(const std::vector<Judged>& table);
+Decision decide(const std::vector<Scored>& table);
 
 /// By how much a model predicts worse than another one [nats], and the standard error of that.
 struct Loss {

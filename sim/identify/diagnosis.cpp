@@ -69,7 +69,7 @@ class HandingOver {
     if (settings_.trying) settings_.trying(what);
   }
   void warn(std::string what) { result_.warnings.push_back(std::move(what)); }
-  const Judged& chosen() const { return found_.table[found_.decision.chosen]; }
+  const Scored& chosen() const { return found_.table[found_.decision.chosen]; }
 
   void report_data() {
     result_.warnings = reporting_.warnings;
@@ -92,7 +92,7 @@ class HandingOver {
     const auto names = found_.study->dictionary.names(without_terms);
     std::optional<std::size_t> named, terms;
     for (std::size_t i = 0; i < found_.table.size(); ++i) {
-      const Judged& one = found_.table[i];
+      const Scored& one = found_.table[i];
       if (!one.general && one.names == names) named = i;
       if (one.general && !found_.models[i].has_effects() &&
           (!terms || one.score > found_.table[*terms].score))

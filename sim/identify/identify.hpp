@@ -58,7 +58,7 @@ struct Study {
 
 struct Identified {
   std::shared_ptr<const Study> study;
-  std::vector<Judged> table{};  ///< of models, and the models themselves, in the same order
+  std::vector<Scored> table{};  ///< of models, and the models themselves, in the same order
   std::vector<Model> models{};
   Decision decision{};
   std::map<std::string, double> promised{};  ///< nats that a look saw in a name

@@ -29,7 +29,7 @@ bool has(const Names& names, const std::string& name) {
 /// disagree about it (Vuong 1989). How a run came to where it is first seen on its way is a guess, which
 /// favours one as much in every run: strong evidence of each start is none.
 bool rivals_chosen(const Identified& found, std::size_t i) {
-  const Judged &chosen = found.table[found.decision.chosen], &other = found.table[i];
+  const Scored &chosen = found.table[found.decision.chosen], &other = found.table[i];
   const auto [nats, error] = loss(chosen.held_out, other.held_out);
   const Rows& rows = found.study->rows;
   const double guesses =
@@ -49,11 +49,11 @@ std::string name_of(const NamedEffect& effect) {
 }
 
 /// The most probable model without this name: of the others of the chosen one, or without any.
-const Judged* without(const Identified& found, const std::string& name) {
+const Scored* without(const Identified& found, const std::string& name) {
   Names rest = found.table[found.decision.chosen].names;
   std::erase(rest, name);
-  const Judged* best = nullptr;
-  for (const Judged& one : found.table) {
+  const Scored* best = nullptr;
+  for (const Scored& one : found.table) {
     if (one.general || one.described) continue;
     if (one.names == rest) return &one;
     if (one.names.empty()) best = &one;
@@ -65,13 +65,13 @@ const Judged* without(const Identified& found, const std::string& name) {
 
 void support(const Identified& found, std::vector<NamedEffect>& effects) {
   const Study& study = *found.study;
-  const Judged& chosen = found.table[found.decision.chosen];
+  const Scored& chosen = found.table[found.decision.chosen];
   const auto groups = groups_of(study.rows);
   std::set<std::string> names;
   for (NamedEffect& effect : effects) {
     const std::string name = name_of(effect);
     names.insert(name);
-    if (const Judged* rest = without(found, name)) {
+    if (const Scored* rest = without(found, name)) {
       effect.support.fall = 2.0 * (chosen.score - rest->score);
       for (std::size_t group = 0; group < groups.size(); ++group) {
         const auto at = static_cast<Eigen::Index>(group);
@@ -86,7 +86,7 @@ void support(const Identified& found, std::vector<NamedEffect>& effects) {
       std::ranges::sort(effect.support.against);
     }
     for (std::size_t i = 0; i < found.table.size(); ++i) {
-      const Judged& other = found.table[i];
+      const Scored& other = found.table[i];
       if (i == found.decision.chosen || other.general || other.described || has(other.names, name)) continue;
       const bool in_its_place =
           std::ranges::any_of(other.names, [&](const std::string& one) { return !has(chosen.names, one); });
@@ -111,7 +111,7 @@ const Model* doubt(const Identified& found) {
   const Names& names = found.table[found.decision.chosen].names;
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < found.table.size(); ++i) {
-    const Judged& other = found.table[i];
+    const Scored& other = found.table[i];
     const bool another =
         std::ranges::any_of(other.names, [&](const std::string& one) { return !has(names, one); });
     if (i == found.decision.chosen || other.general || !another || !rivals_chosen(found, i)) continue;
@@ -123,9 +123,9 @@ const Model* doubt(const Identified& found) {
 std::vector<diagnose::Explanation> explanations(const Identified& found, const std::vector<double>& left) {
   using Means = diagnose::Explanation::Kind;
   std::vector<diagnose::Explanation> list;
-  const Judged& best = found.table[found.decision.best];
+  const Scored& best = found.table[found.decision.best];
   for (std::size_t i = 0; i < found.table.size(); ++i) {
-    const Judged& one = found.table[i];
+    const Scored& one = found.table[i];
     const auto [nats, error] = loss(best.held_out, one.held_out);
     const Eigen::VectorXd& z = found.models[i].point.z;
     list.push_back({.kind = one.described       ? Means::nothing
@@ -150,7 +150,7 @@ std::vector<diagnose::Explanation> explanations(const Identified& found, const s
 namespace {
 
 std::string outcome_of(const Identified& found, std::size_t i) {
-  const Judged &chosen = found.table[found.decision.chosen], &one = found.table[i];
+  const Scored &chosen = found.table[found.decision.chosen], &one = found.table[i];
   if (i == found.decision.chosen) return "chosen";
   const auto [nats, error] = loss(chosen.held_out, one.held_out);
   if (!(nats <= decisive.errors * error))
@@ -168,7 +168,7 @@ std::vector<diagnose::Ranked> ranking(const Identified& found, const std::vector
   for (const Entry& entry : study.dictionary.entries) names.insert(entry.name);
   for (const Differing& one : differing) names.insert(std::string(one.name));
   double reference = -std::numeric_limits<double>::infinity();
-  for (const Judged& one : found.table)
+  for (const Scored& one : found.table)
     if (one.names.empty()) reference = std::max(reference, one.score);
   std::vector<diagnose::Ranked> list;
   for (const std::string& name : names) {

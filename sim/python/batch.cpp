@@ -195,12 +195,16 @@ std::vector<double> Batch::zeros() const {
   for (const Member& member : members_) commands.push_back(member.hung.rig.valve.zero_command);
   return commands;
 }
+std::vector<double> Batch::each(const Numbers& given, std::string_view name) const {
+  const auto count = static_cast<std::size_t>(given.size());
+  if (given.ndim() > 1 || (count != 1 && count != rigs()))
+    throw py::value_error(fmt::format("{}: one number, or one for each rig", name));
+  if (count == rigs()) return {given.data(), given.data() + rigs()};
+  return std::vector<double>(rigs(), given.data()[0]);
+}
+
 std::vector<double> Batch::all(const Numbers& command) const {
-  const auto given = static_cast<std::size_t>(command.size());
-  if (command.ndim() > 1 || (given != 1 && given != rigs()))
-    throw py::value_error("command: one number, or one for each rig");
-  std::vector<double> commands(rigs(), command.data()[0]);
-  if (given == rigs()) commands.assign(command.data(), command.data() + rigs());
+  const std::vector<double> commands = each(command, "command");
   for (std::size_t i = 0; i < rigs(); ++i)
     if (!is_command(commands[i], rig_at(i)))
       command_within(commands[i], rig_at(i), fmt::format("command[{}]", i));
@@ -275,10 +279,9 @@ double Batch::read_ratio(std::size_t rig) const {
   return static_cast<double>(members_[rig].counts) * run::contraction_per_count(rig_at(rig));
 }
 
-void Batch::set_jitter(const std::vector<double>& ratios) {
-  if (ratios.size() != rigs())
-    throw py::value_error(fmt::format("jitter: {} numbers for {} rigs", ratios.size(), rigs()));
-  for (std::size_t i = 0; i < rigs(); ++i) members_[i].jitter = ratios[i];
+void Batch::set_jitter(const Numbers& ratios) {
+  const std::vector<double> of_each = each(ratios, "jitter");
+  for (std::size_t i = 0; i < rigs(); ++i) members_[i].jitter = of_each[i];
 }
 std::vector<double> Batch::jitter() const {
   std::vector<double> ratios;

@@ -34,7 +34,7 @@ class Batch {
 
   py::array_t<double> contraction_ratio() const;
   /// As Ride's, one for each rig. Throws py::value_error where these are not as many.
-  void set_jitter(const std::vector<double>& ratios);
+  void set_jitter(const Numbers& ratios);
   std::vector<double> jitter() const;
   py::array_t<double> state() const;
   py::dict failures() const;
@@ -68,6 +68,8 @@ class Batch {
   void require_whole() const;
   const plant::Rig& rig_at(std::size_t i) const { return members_[i].hung.rig; }
   std::vector<double> zeros() const;
+  /// One number for all rigs, or as many as there are rigs. Throws py::value_error.
+  std::vector<double> each(const Numbers& given, std::string_view name) const;
   std::vector<double> all(const Numbers& command) const;
   std::vector<std::size_t> everybody() const;
 

@@ -46,15 +46,12 @@ void add_batch(py::module_& module) {
   py::class_<Batch>(module, "Batch",
                     "Many rigs with a load each, stepped together, each under its own command.")
       .def(py::pickle([](const Batch& batch) { return batch.pickled(); }, &Batch::unpickled))
-      .def(py::init([loads_of](Any rigs, Any loads_kg, int threads) {
-             if (threads < 0)
-               throw py::value_error(
-                   fmt::format("threads = {}: must be 0, as many as the machine has, or more", threads));
+      .def(py::init([loads_of](Any rigs, Any loads_kg, Threads threads) {
              const auto loads = loads_of(loads_kg);
              if (!loads) throw py::type_error("loads_kg is missing");
-             return std::make_unique<Batch>(rigs, *loads, static_cast<unsigned>(threads));
+             return std::make_unique<Batch>(rigs, *loads, threads.number);
            }),
-           py::arg("rigs"), py::arg("loads_kg"), py::arg("threads") = 1,
+           py::arg("rigs"), py::arg("loads_kg"), py::arg("threads") = Threads{1},
            "One Rig (or what makes one) with a load [kg] each, shape (n,), or a list of n rigs with one "
            "muscle "
            "and the same tick. Eight rigs go through the laws at once where they can; what becomes of one "
@@ -97,7 +94,12 @@ void add_batch(py::module_& module) {
           "it was before the tick, without copies.")
       .def_property_readonly("contraction_ratio", &Batch::contraction_ratio,
                              "As the encoders count it [1], shape (n,).")
-      .def_property("jitter", &Batch::jitter, &Batch::set_jitter, "Of each, as a single one has it.")
+      .def_property(
+          "jitter", &Batch::jitter,
+          [](Batch& batch, Any ratios) {
+            if (const auto all = numbers_of(ratios, "jitter", "a contraction ratio")) batch.set_jitter(*all);
+          },
+          "Of each, as a single one has it; set by one number, or n.")
       .def_property_readonly(
           "state", &Batch::state,
           "True states, shape (n, 5): contraction ratio [1] and its speed [1/s], valve and "

@@ -99,13 +99,13 @@ struct Diagnosis {
 
 Diagnosis diagnose(const domain::Dataset& dataset, const py::object& rig,
                    const std::vector<std::string>& hypotheses, std::optional<double> time_limit_s,
-                   std::uint64_t seed, unsigned threads, const py::object& progress) {
+                   std::uint64_t seed, Threads threads, const py::object& progress) {
   if (time_limit_s && !(*time_limit_s > 0.0)) throw py::value_error("time_limit_s is a time above 0 s");
   const auto data = std::make_shared<domain::Dataset>(dataset);
   if (!rig.is_none()) input::take_rig(*data, "rig", rig_of(rig).file);
   return long_work(progress, [&](const run::ProgressHook& hook) {
     tasks::Prepared prepared = tasks::prepare(*data, hypotheses, [](const std::vector<std::string>&) {});
-    tasks::Diagnosing how{.threads = threads, .seed = seed, .prepared = std::move(prepared)};
+    tasks::Diagnosing how{.threads = threads.number, .seed = seed, .prepared = std::move(prepared)};
     if (time_limit_s) how.time_limit_s = *time_limit_s;
     return Diagnosis{data, std::make_shared<const tasks::Found>(tasks::find(*data, how, hook))};
   });
@@ -193,7 +193,7 @@ void add_findings(py::module_& module) {
       .def(
           "diagnose", &diagnose, py::arg("rig") = py::none(),
           py::arg("hypotheses") = std::vector<std::string>{}, py::arg("time_limit_s") = py::none(),
-          py::arg("seed") = 1, py::arg("threads") = 0, py::arg("progress") = py::none(),
+          py::arg("seed") = 1, py::arg("threads") = Threads{}, py::arg("progress") = py::none(),
           "Finds where the runs and the rig disagree, names what the rig lacks, adds it (docs/diagnosis.md). "
           "`rig`: in place of the data set's; `hypotheses`: files of laws that join the catalogue; "
           "`time_limit_s` [s] ends the search with the best so far. Of `progress` the total may be 0: "

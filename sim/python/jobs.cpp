@@ -55,7 +55,7 @@ void add_impossible(std::vector<std::string>& warnings, const plant::Rig& rig,
   warnings.push_back(line.substr(2, line.size() - 3));  // without its indent and its end
 }
 
-Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::uint64_t> seed,
+Result run_scenario(const Scenario& asked, Threads threads, std::optional<std::uint64_t> seed,
                     const py::object& progress) {
   struct Whole {
     domain::Scenario scenario;
@@ -63,8 +63,8 @@ Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::
   };
   const auto whole = std::make_shared<Whole>(Whole{asked.what});
   if (seed) whole->scenario.seed = *seed;
-  whole->comparison =
-      long_work(progress, [&](const auto& hook) { return run::compare(whole->scenario, threads, hook); });
+  whole->comparison = long_work(
+      progress, [&](const auto& hook) { return run::compare(whole->scenario, threads.number, hook); });
   Result result{{},
                 whole->comparison.warnings,
                 whole->comparison.unmet,
@@ -83,7 +83,7 @@ Result run_scenario(const Scenario& asked, unsigned threads, std::optional<std::
   return result;
 }
 
-Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned threads,
+Result replay(const domain::Dataset& dataset, const py::object& rig, Threads threads,
               const py::object& progress) {
   struct Whole {
     domain::Dataset data;
@@ -93,7 +93,7 @@ Result replay(const domain::Dataset& dataset, const py::object& rig, unsigned th
   const auto whole = std::make_shared<Whole>(Whole{dataset});
   if (!rig.is_none()) tasks::replace_rig(whole->data, "rig", rig_of(rig).file);
   do_long(progress, [&](const auto& hook) {
-    whole->runs = run::replay(whole->data, threads, hook);
+    whole->runs = run::replay(whole->data, threads.number, hook);
     whole->warnings = tasks::warnings_of(whole->data, whole->runs);
   });
   Result result{{},
@@ -166,24 +166,24 @@ void add_jobs(py::module_& module) {
   py::reinterpret_borrow<py::class_<Rig>>(py::object(module.attr("Rig")))
       .def(
           "run",
-          [](const py::object& self, unsigned threads, const py::object& progress, const py::kwargs& keys) {
+          [](const py::object& self, Threads threads, const py::object& progress, const py::kwargs& keys) {
             py::dict source(**keys);
             source["rig"] = self;
             return run_scenario(py::object(py::type::of<Scenario>())(source).cast<const Scenario&>(), threads,
                                 std::nullopt, progress);
           },
-          py::kw_only(), py::arg("threads") = 0, py::arg("progress") = py::none(),
+          py::kw_only(), py::arg("threads") = Threads{}, py::arg("progress") = py::none(),
           "The Scenario of this rig with these keys of scenario files (loads=, target=, duration=, "
           "controllers=, ...), run as Scenario.run does.");
   const py::object scenario = module.attr("Scenario"), dataset = module.attr("Dataset");
   py::reinterpret_borrow<py::class_<Scenario>>(scenario).def(
-      "run", &run_scenario, py::arg("threads") = 0, py::arg("seed") = py::none(),
+      "run", &run_scenario, py::arg("threads") = Threads{}, py::arg("seed") = py::none(),
       py::arg("progress") = py::none(),
       "Simulates every load under every controller, on so many threads (0: all the machine has); the result "
       "does not depend on their number. `progress(what, done, total)` is called on the way. Ctrl-C ends it, "
       "as does an exception of `progress`. A run that fails says so in `failure`; the others go on.");
   py::reinterpret_borrow<py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>>>(dataset).def(
-      "replay", &replay, py::arg("rig") = py::none(), py::arg("threads") = 0,
+      "replay", &replay, py::arg("rig") = py::none(), py::arg("threads") = Threads{},
       py::arg("progress") = py::none(),
       "Simulates every measured run with what drove it, on the data set's rig or another one, and compares. "
       "Raises UnfitData where a comparison would mean nothing. `threads`, `progress`, Ctrl-C as in "

@@ -2,6 +2,7 @@
 // import the package `mckibben` (the folder beside), which is made of it; docs/python.md is its page.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,11 @@ struct Rig {
   plant::Rig file;
 };
 
+/// How many threads may work: 0 is as many as the machine has.
+struct Threads {
+  unsigned number = 0;
+};
+
 /// The document of a result as Python's dicts and lists.
 py::object from_json(const std::string& document);
 
@@ -46,3 +52,23 @@ py::array_t<double> view(const double* first, std::vector<py::ssize_t> shape,
                          std::vector<py::ssize_t> strides_in_bytes, const py::handle& owner);
 
 }  // namespace mckibben::python
+
+/// From an int that is 0 or more; throws py::value_error for others.
+template <>
+struct pybind11::detail::type_caster<mckibben::python::Threads> {
+  PYBIND11_TYPE_CASTER(mckibben::python::Threads, const_name("int"));
+
+  bool load(handle given, bool convert) {
+    make_caster<long> whole;
+    if (!whole.load(given, convert)) return false;
+    const long number = cast_op<long>(whole);
+    if (number < 0 || number > std::numeric_limits<int>::max())
+      throw value_error("threads = " + std::to_string(number) +
+                        ": must be 0, as many as the machine has, or more");
+    value.number = static_cast<unsigned>(number);
+    return true;
+  }
+  static handle cast(const mckibben::python::Threads& threads, return_value_policy, handle) {
+    return PyLong_FromUnsignedLong(threads.number);
+  }
+};

@@ -16,7 +16,8 @@ namespace {
 const plant::Channel& channel_of(const Simulated& run, const std::string& name) {
   for (const plant::Channel& channel : run.channels)
     if (channel.name() == name) return channel;
-  if (name == "target") throw py::key_error("target: is no column; it is run.target, a value for each row");
+  if (name.starts_with("target"))
+    throw py::key_error(name + ": is no column; it is run.target, a value for each row");
   std::vector<std::string> names;
   for (const plant::Channel& channel : run.channels) names.push_back(channel.name());
   const std::vector<std::string_view> known(names.begin(), names.end());

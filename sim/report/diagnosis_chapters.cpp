@@ -201,7 +201,7 @@ std::string added_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
 /// Errors that are left, by load.
 std::string loads_html(const std::vector<const diagnose::RunGap*>& runs, bool changed,
                        const plant::Rig& rig) {
-  std::vector<Judged> judged;
+  std::vector<RunError> judged;
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (const double rmse = left_of(*runs[i], changed); std::isfinite(rmse) && !runs[i]->left_out)
       judged.push_back({runs[i]->id, runs[i]->load_kg, rmse, i});

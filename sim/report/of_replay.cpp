@@ -70,7 +70,7 @@ std::string gaps_table(const domain::Dataset& dataset, const std::vector<run::Re
       "<table><caption>Simulated less measured</caption>\n<thead><tr><th scope='col'>run</th><th "
       "scope='col'>load, kg</th><th scope='col'>reading</th><th scope='col'>rmse</th><th "
       "scope='col'>largest</th><th scope='col'>mean</th><th scope='col'>rows</th></tr></thead>\n<tbody>\n";
-  std::vector<Judged> judged;
+  std::vector<RunError> judged;
   std::size_t group = 0;
   for (const std::size_t i : order(runs)) {
     const run::ReplayedRun& run = runs[i];

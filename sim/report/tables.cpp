@@ -38,7 +38,7 @@ std::string paragraph(const std::string& text) {
 
 namespace {
 
-double median(const std::vector<const Judged*>& sorted) {
+double median(const std::vector<const RunError*>& sorted) {
   const std::size_t half = sorted.size() / 2;
   return sorted.size() % 2 == 1 ? sorted[half]->rmse : 0.5 * (sorted[half - 1]->rmse + sorted[half]->rmse);
 }
@@ -49,9 +49,9 @@ std::string link_html(std::size_t group, const std::string& text) {
   return fmt::format("<a href='#group-{0}' data-group='{0}'>{1}</a>", group, output::escaped(text));
 }
 
-std::string by_load_html(const std::vector<Judged>& runs, const plant::Rig& rig) {
-  std::map<double, std::vector<const Judged*>> loads;
-  for (const Judged& run : runs) loads[run.load_kg].push_back(&run);
+std::string by_load_html(const std::vector<RunError>& runs, const plant::Rig& rig) {
+  std::map<double, std::vector<const RunError*>> loads;
+  for (const RunError& run : runs) loads[run.load_kg].push_back(&run);
   const std::string unit = length_unit_html();
   std::string html = fmt::format(
       "<table class='by-load'><caption>Root mean square error of height, by load</caption>\n<thead><tr><th "
@@ -60,8 +60,8 @@ std::string by_load_html(const std::vector<Judged>& runs, const plant::Rig& rig)
       unit);
   for (auto& [load_kg, of_load] : loads) {
     std::stable_sort(of_load.begin(), of_load.end(),
-                     [](const Judged* a, const Judged* b) { return a->rmse < b->rmse; });
-    const Judged& worst = *of_load.back();
+                     [](const RunError* a, const RunError* b) { return a->rmse < b->rmse; });
+    const RunError& worst = *of_load.back();
     html += fmt::format("<tr><th scope='row'>{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                         domain::write_kg(load_kg), of_load.size(), length_html(median(of_load), rig),
                         length_html(worst.rmse, rig), link_html(worst.group, worst.id));

@@ -25,7 +25,7 @@ std::string paragraph(const std::string& text);
 inline constexpr std::size_t many_runs = 12;
 
 /// One run, how wrong its simulation is, and the group of the page that draws it.
-struct Judged {
+struct RunError {
   std::string id;
   double load_kg = 0.0;
   double rmse = 0.0;  ///< contraction ratio
@@ -33,7 +33,7 @@ struct Judged {
 };
 
 /// A row for each load, the lightest first: how many runs, median and largest error, which run has that.
-std::string by_load_html(const std::vector<Judged>& runs, const plant::Rig& rig);
+std::string by_load_html(const std::vector<RunError>& runs, const plant::Rig& rig);
 
 /// `text`, which leads to the plots of a group.
 std::string link_html(std::size_t group, const std::string& text);

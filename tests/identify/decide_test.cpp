@@ -8,14 +8,14 @@ namespace mckibben::identify {
 namespace {
 
 /// A model whose predictions of four groups are worse than the best one's by so much each.
-Judged model(std::vector<std::string> names, double score, double worse, double scatter = 0.1) {
-  Judged one{.names = std::move(names), .score = score, .held_out = Eigen::VectorXd(4)};
+Scored model(std::vector<std::string> names, double score, double worse, double scatter = 0.1) {
+  Scored one{.names = std::move(names), .score = score, .held_out = Eigen::VectorXd(4)};
   one.held_out << -worse - scatter, -worse + scatter, -worse - scatter, -worse + scatter;
   return one;
 }
 
-Judged described(double score, double worse) {
-  Judged one = model({}, score, worse);
+Scored described(double score, double worse) {
+  Scored one = model({}, score, worse);
   one.described = true;
   return one;
 }
@@ -30,7 +30,7 @@ TEST(Decide, TakesTheMostProbableWhereOthersPredictWorse) {
 }
 
 TEST(Decide, HoldsToWhatClosesTheGapWhereAWideErrorPredictsAsWell) {
-  Judged leak = model({"muscle_leak"}, 14.0, 0.0), nothing = described(0.0, 4.7);
+  Scored leak = model({"muscle_leak"}, 14.0, 0.0), nothing = described(0.0, 4.7);
   nothing.held_out << -16.0, 1.0, -3.0, -1.0;  // 19 +- 16 nats behind
   leak.above_noise = 0.05;
   nothing.above_noise = 1.0;
@@ -44,7 +44,7 @@ TEST(Decide, HoldsToWhatClosesTheGapWhereAWideErrorPredictsAsWell) {
 
 TEST(Decide, PrefersTheSimplerThatPredictsAsWell) {
   // 16 nats more probable, but only within this load: chance, where disturbances are not of the kind assumed.
-  Judged bigger = model({"pressure_threshold"}, 16.0, 0.0), numbers = model({}, 0.0, 0.0);
+  Scored bigger = model({"pressure_threshold"}, 16.0, 0.0), numbers = model({}, 0.0, 0.0);
   numbers.held_out << -40.0, 5.0, 10.0, 8.0;
   const Decision d = decide({bigger, numbers});
   EXPECT_EQ(d.best, 0U);
@@ -52,7 +52,7 @@ TEST(Decide, PrefersTheSimplerThatPredictsAsWell) {
 }
 
 TEST(Decide, DoesNotTakeASimplerOneThatTheSheetForbids) {
-  Judged stretched = model({}, -1.0, 0.0);
+  Scored stretched = model({}, -1.0, 0.0);
   stretched.off_sheet = 20.0;
   const Decision d = decide({stretched, model({"viscous_damping"}, 0.0, 0.0)});
   EXPECT_EQ(d.verdict, Verdict::missing_effect);
@@ -62,7 +62,7 @@ TEST(Decide, DoesNotTakeASimplerOneThatTheSheetForbids) {
 }
 
 TEST(Decide, TakesWhatStandsForAStretchedParameterThoughItIsLessProbable) {
-  Judged stretched = model({}, 3.0, 0.0);
+  Scored stretched = model({}, 3.0, 0.0);
   stretched.off_sheet = 20.0;
   const Decision d = decide({stretched, model({"load_label"}, 0.0, 0.0)});
   EXPECT_EQ(d.chosen, 1U);
@@ -70,36 +70,36 @@ TEST(Decide, TakesWhatStandsForAStretchedParameterThoughItIsLessProbable) {
 }
 
 TEST(Decide, TakesARivalThatTheSheetAllowsThoughItPredictsALittleWorse) {
-  Judged stretched = model({}, 1.0, 0.0);
+  Scored stretched = model({}, 1.0, 0.0);
   stretched.off_sheet = 6.0;
-  const Judged twin = model({"viscous_damping"}, 0.0, 1.0);  // by more than two standard errors
+  const Scored twin = model({"viscous_damping"}, 0.0, 1.0);  // by more than two standard errors
   EXPECT_EQ(decide({stretched, twin}).chosen, 1U);
   EXPECT_EQ(decide({stretched, model({"viscous_damping"}, -30.0, 1.0)}).chosen, 0U);  // no rival
 }
 
 TEST(Decide, SaysWhereTheAnswerItselfContradictsTheSheet) {
-  Judged only = model({"muscle_leak"}, 0.0, 0.0);
+  Scored only = model({"muscle_leak"}, 0.0, 0.0);
   only.off_sheet = 9.0;
   EXPECT_TRUE(decide({only, model({}, -300.0, 60.0)}).contradicts_sheet);
 }
 
 TEST(Decide, GeneralTermsAreUnknownAndNamesBesideThemNoFindings) {
-  Judged general = model({"waves"}, 0.0, 0.0);
+  Scored general = model({"waves"}, 0.0, 0.0);
   general.general = true;
   EXPECT_EQ(decide({general, model({"muscle_leak"}, -80.0, 30.0)}).verdict, Verdict::unknown_effect);
 }
 
 TEST(Decide, GeneralTermsAreNeverTheSimplerAnswer) {
-  Judged general = model({"smooth"}, -60.0, 0.0);
+  Scored general = model({"smooth"}, -60.0, 0.0);
   general.general = true;
   const Decision d = decide({general, model({"bladder_hysteresis", "gains_differ"}, 0.0, 0.0)});
   EXPECT_EQ(d.chosen, 1U);
 }
 
 TEST(Decide, GeneralTermsBeatTheCatalogueByStrongEvidenceOnly) {
-  const Judged name = model({"bladder_elasticity"}, 0.0, 6.0);
+  const Scored name = model({"bladder_elasticity"}, 0.0, 6.0);
   for (const double ahead : {1.0, 20.0}) {
-    Judged general = model({"bladder_elasticity", "waves"}, ahead, 0.0);
+    Scored general = model({"bladder_elasticity", "waves"}, ahead, 0.0);
     general.general = true;
     EXPECT_EQ(decide({general, name}).verdict,
               ahead < decisive.strong ? Verdict::missing_effect : Verdict::unknown_effect);
@@ -107,13 +107,13 @@ TEST(Decide, GeneralTermsBeatTheCatalogueByStrongEvidenceOnly) {
 }
 
 TEST(Decide, TakesARivalThatPredictsBetter) {
-  Judged general = model({"waves"}, 1.7, 12.9);  // 12.9 nats worse by every load
+  Scored general = model({"waves"}, 1.7, 12.9);  // 12.9 nats worse by every load
   general.general = true;
   EXPECT_EQ(decide({general, model({"bladder_elasticity", "gains_differ"}, 0.0, 0.0)}).chosen, 1U);
 }
 
 TEST(Decide, NamesNoMoreThanTheMostProbableForPredictingBetter) {
-  const Judged more = model({"encoder_backlash"}, -0.9, -1.6);
+  const Scored more = model({"encoder_backlash"}, -0.9, -1.6);
   EXPECT_EQ(decide({model({}, 0.0, 0.0), more}).chosen, 0U);
   EXPECT_EQ(decide({model({"gauge_error"}, 0.0, 0.0), more}).chosen, 1U);  // as many
 }

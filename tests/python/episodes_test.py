@@ -65,54 +65,55 @@ class Episodes(unittest.TestCase):
         self.assertTrue(0.001 < numpy.std(read - true) < 0.003, numpy.std(read - true))
         numpy.testing.assert_allclose(many.episodes[0].history["contraction_ratio"], read, atol=1e-12)
 
-    def test_its_history_has_the_rewards_of_a_subclass(self):
-        class Gentle(mckibben.Env):
-            def step(self, action):
-                seen, reward, *rest = super().step(action)
-                return seen, reward - 5.0, *rest
+    def test_a_subclass_has_its_own_reward_and_end(self):
+        class Squares(mckibben.env.Rules):
+            def reward(self, observation, action, usual):
+                error = observation[..., 0] - observation[..., 2]
+                return -error**2 - action[..., 0]**2 + 0.0 * usual
 
-        class Gentler(Gentle):
-            def step(self, action):
-                seen, reward, *rest = super().step(action)
-                return seen, 0.5 * reward, *rest
+            def terminates(self, observation):
+                return observation[..., 0] > 0.04
 
-        env = Gentler(duration_s=0.6)
-        env.reset(seed=1)
-        rewards = [env.step([0.2])[1] for _ in range(5)]
+        class One(Squares, mckibben.Env):
+            pass
+
+        class Many(Squares, mckibben.VectorEnv):
+            pass
+
+        env = One(duration_s=1.2)
+        seen, _ = env.reset(seed=1)
+        rewards, terminated = [], False
+        while not terminated:
+            seen, reward, terminated, truncated, _ = env.step([0.5])
+            self.assertAlmostEqual(reward, -(float(seen[0]) - float(seen[2]))**2 - 0.25, places=6)
+            self.assertFalse(truncated)
+            rewards.append(reward)
+        self.assertGreater(seen[0], 0.04)
         self.assertEqual(env.history["reward"].tolist(), rewards)
-        self.assertLess(max(rewards), -2.4)
-
-    def test_of_a_step_of_many_ticks_rewards_sum_to_what_it_returned(self):
-        class Skips(mckibben.Env):
-            def step(self, action):
-                total = 0.0
-                for _ in range(4):
-                    *seen, reward, terminated, truncated, info = super().step(action)
-                    total += reward
-                return *seen, total, terminated, truncated, info
-
-        env = Skips(duration_s=1.2)
-        env.reset(seed=0)
-        total = sum(env.step([0.2])[1] for _ in range(10))
-        self.assertEqual(len(env.history["reward"]), 40)
-        self.assertAlmostEqual(env.history["reward"].sum(), total)
-
-    def test_histories_of_many_have_the_rewards_of_a_subclass(self):
-        class Gentle(mckibben.VectorEnv):
-            def step(self, actions):
-                seen, rewards, *rest = super().step(actions)
-                return seen, rewards - 500.0, *rest
 
         for mode in mckibben.AutoresetMode:
             with self.subTest(mode=mode):
-                many = Gentle(2, duration_s=0.12, autoreset_mode=mode)
+                many = Many(2, loads_kg=env.episode.load_kg, duration_s=1.2, autoreset_mode=mode)
                 many.reset(seed=1)
-                episodes, rewards = list(many.episodes), []
-                while len(episodes[0].rows) < len(episodes[0].wanted) - 1:
-                    rewards.append(many.step(numpy.zeros((2, 1)))[1])
-                for one, own in zip(episodes, numpy.transpose(rewards)):
-                    self.assertEqual(one.history["reward"].tolist(), own.tolist())
-                self.assertLess(numpy.max(rewards), -490.0)
+                first, ended = many.episodes[0], []
+                for _ in rewards:
+                    result = many.step(numpy.full((2, 1), 0.5))
+                    ended.append(bool(result[2][0]))
+                self.assertEqual(ended, [False] * (len(rewards) - 1) + [True])
+                numpy.testing.assert_allclose(first.history["reward"], rewards, atol=1e-3)
+                self.assertAlmostEqual(result[1][0], first.history["reward"][-1])
+                if mode == mckibben.AutoresetMode.NEXT_STEP:
+                    self.assertEqual(many.step(numpy.full((2, 1), 0.5))[1][0], 0.0)
+                if mode != mckibben.AutoresetMode.DISABLED:
+                    self.assertIs(many.finished[0], first)
+
+    def test_a_reward_of_another_shape_is_an_error(self):
+        for kind, many, wrong in ((mckibben.Env, (), None), (mckibben.Env, (), [1.0]),
+                                  (mckibben.VectorEnv, (2,), 1.0), (mckibben.VectorEnv, (2,), numpy.zeros((2, 1)))):
+            env = type("Own", (kind,), {"reward": lambda self, *_: wrong})(*many, duration_s=0.12)
+            env.reset(seed=1)
+            with self.assertRaisesRegex(ValueError, r"(?s)reward returned .*: must be (one number|an array of 2, one for)"):
+                env.step(numpy.zeros((*many, 1)))
                 if mode != mckibben.AutoresetMode.DISABLED:
                     many.step(numpy.zeros((2, 1)))
                     self.assertEqual(len(episodes[0].rows), len(rewards))

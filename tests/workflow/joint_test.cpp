@@ -98,9 +98,9 @@ TEST(NightlyJointDiagnosis, PlansTheCommandsOfBothMusclesThatTellExplanationsApa
   data.runs.resize(3);
   const identify::Settings settings{.threads = 2};
   identify::Identified found = identify::identify(data, settings);
-  const identify::Judged chosen = found.table[found.decision.chosen];
-  identify::Judged* rival = nullptr;
-  for (identify::Judged& one : found.table)
+  const identify::Scored chosen = found.table[found.decision.chosen];
+  identify::Scored* rival = nullptr;
+  for (identify::Scored& one : found.table)
     if (!one.general && !one.names.empty() && one.names != chosen.names &&
         (rival == nullptr || one.score > rival->score))
       rival = &one;

@@ -3,14 +3,13 @@
 Gymnasium is not needed. Where it is installed, Env and VectorEnv are its environments, with ids: Track-v0,
 TrackDrawn-v0, whose rigs and targets are drawn, and TrackPair-v0, two muscles against each other.
 """
-import functools
 import numbers
 
 import numpy
 
 from ._core import Batch, Ride, Rig
 from .errors import NumericalFailure
-from .task import Episode, Task, actions_of, drawn_rig, drawn_target, options_of
+from .task import Episode, Task, actions_of, drawn_rig, drawn_target, options_of, returned
 
 try:
     import gymnasium
@@ -40,37 +39,29 @@ def _no_rendering(mode):
         raise ValueError(f"render_mode = {mode!r}: must be None; nothing is rendered, plot env.unwrapped.history")
 
 
-def _rewarded(step):
-    """A subclass's step, whose reward is that of the history."""
-    @functools.wraps(step)
-    def own(self, *args, **keys):
-        before = len(self.episode.rows) if self.episode else 0
-        result = step(self, *args, **keys)
-        self.episode.rewarded(result[1], before)
-        return result
-    return own
+class Rules:
+    """What a subclass of Env or VectorEnv may override: its own reward, and its own end of an episode. Both are asked
+    after each tick, before an episode begins again. Of a VectorEnv they get a row for each of the k members that moved:
+    observation[..., 0] is the position in both."""
+
+    def reward(self, observation, action, usual):
+        """The reward of the tick that ended with `observation`; `usual` is minus the error in per cent, as Env says.
+        Returns a number, of a VectorEnv k of them."""
+        return usual
+
+    def terminates(self, observation):
+        """Whether the episode ends here. Returns a bool, of a VectorEnv k of them."""
+        return numpy.zeros(observation.shape[:-1], dtype=bool)
 
 
-def _all_rewarded(step):
-    """The same of many: of the episodes that moved, which may have ended and made room for others."""
-    @functools.wraps(step)
-    def own(self, *args, **keys):
-        before = [(one, len(one.rows) if one else 0) for one in self.episodes]
-        result = step(self, *args, **keys)
-        for (one, rows), reward in zip(before, result[1]):
-            if len(one.rows) > rows:
-                one.rewarded(reward, rows)
-        return result
-    return own
-
-
-class Env(Base):
+class Env(Rules, Base):
     """Follow a target with an unknown load: an episode is one run.
 
     action       shape (1,), -1 to 1: the command, from the lower to the upper end of the valve's line; beyond it is cut
     observation  shape (4,): contraction ratio as the encoder counts it, its speed by these counts over the last
                  tick [1/s], the target at this tick [1], the command of the last tick (-1 to 1)
-    reward       minus the absolute error of the counted contraction ratio, in per cent
+    reward       minus the absolute error of the counted contraction ratio, in per cent; another one: override
+                 `reward`, and `terminates` for an end of your own
     two muscles  action (2,), one for each, the first for positive angles; observation (5,): angle [rad], its speed,
                  the target [rad], both commands; reward minus the error in hundredths of a rad; no load hangs
     truncated    at the end of `duration`, after one step less than it has ticks; terminated where the simulation
@@ -102,11 +93,6 @@ class Env(Base):
         self.action_space, self.observation_space = (Box(*ends) for ends in (self.task.acted, self.task.observed))
         self.episode = self.ride = None
         self.ended = False
-
-    def __init_subclass__(cls, **keys):
-        super().__init_subclass__(**keys)
-        if "step" in vars(cls):
-            cls.step = _rewarded(cls.step)
 
     @property
     def history(self):
@@ -149,7 +135,8 @@ class Env(Base):
 
     def reset(self, *, seed=None, options=None):
         """A new episode: (observation, info). `seed` decides its rig, target, load and jitter; `options` may say
-        {"load_kg": ...}. The same seed, the same episode."""
+        {"load_kg": ...}. The same seed, the same episode; in a VectorEnv it agrees within the solver's tolerance, so that
+        a count may differ."""
         options = options_of(options)
         self.task.check(options, seed)
         super().reset(seed=None if seed is None else int(seed))  # Gymnasium takes no whole number of NumPy's
@@ -174,10 +161,14 @@ class Env(Base):
             self.ride.step(**dict(zip(("command", "opposite_command"), commands)))
         except NumericalFailure as failure:
             terminated, info["failure"] = True, str(failure)
-        seen, reward, truncated = self.episode.arrive(self._counted())
+        seen, usual, truncated = self.episode.arrive(self._counted())
+        observation = self.task.observation(seen)
+        reward = float(returned("reward", self.reward(observation, numpy.array(self.episode.action), usual), ()))
+        self.episode.rewarded(reward)
+        terminated = terminated or bool(returned("terminates", self.terminates(observation), ()))
         self.ended = terminated or truncated
         info.update(self.episode.truth(self.ride), time_s=self.ride.time_s)
-        return self.task.observation(seen), reward, terminated, truncated, info
+        return observation, reward, terminated, truncated, info
 
     def _counted(self):
         return getattr(self.ride.reading, self.task.reads)
@@ -199,7 +190,7 @@ class PairEnv(Env):
                              "lambda random: {**mckibben.env.drawn_rig(random), 'base': 'thesis_pair'}")
 
 
-class VectorEnv(VectorBase):
+class VectorEnv(Rules, VectorBase):
     """Many episodes at once in a Batch, each with rig, load and target of its own; arrays with a row for each.
 
     A member whose episode has ended is reset in the next step (its action is ignored, its reward is 0), in the same
@@ -216,7 +207,8 @@ class VectorEnv(VectorBase):
 
     def __init__(self, num_envs=1, rig="thesis", loads_kg=None, target=None, duration_s=12.0, jitter=0.0,
                  autoreset_mode=AutoresetMode.NEXT_STEP, threads=1, render_mode=None):
-        """As Env; rigs of one batch have the same tick and are commanded in the same unit."""
+        """As Env; rigs of one batch have the same tick and are commanded in the same unit. `threads`: 0 is as many as
+        the machine has; results do not depend on them."""
         _no_rendering(render_mode)
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
         if self.task.pair:
@@ -236,11 +228,6 @@ class VectorEnv(VectorBase):
         self.finished = [None] * self.num_envs  # the episode before, of members that began again by themselves
         self.random = [numpy.random.default_rng() for _ in self.episodes]
         self.ended = numpy.zeros(self.num_envs, dtype=bool)
-
-    def __init_subclass__(cls, **keys):
-        super().__init_subclass__(**keys)
-        if "step" in vars(cls):
-            cls.step = _all_rewarded(cls.step)
 
     def _many(self, space):
         low, high = (numpy.repeat(end[None], self.num_envs, axis=0) for end in (space.low, space.high))
@@ -294,8 +281,13 @@ class VectorEnv(VectorBase):
         counted, failures = self.batch.contraction_ratio.tolist(), self.batch.failures
         moved = numpy.flatnonzero(~waiting).tolist()
         if moved:
-            seen, rewards[moved], truncations[moved] = zip(*(self.episodes[i].arrive(counted[i]) for i in moved))
-            self.observations[moved] = self.task.observation(seen)
+            seen, usual, truncations[moved] = zip(*(self.episodes[i].arrive(counted[i]) for i in moved))
+            self.observations[moved] = now = self.task.observation(seen)
+            acted, k = numpy.array([self.episodes[i].action for i in moved]), (len(moved),)
+            rewards[moved] = returned("reward", self.reward(now, acted, numpy.array(usual)), k)
+            for i in moved:
+                self.episodes[i].rewarded(float(rewards[i]))
+            terminations[moved] = returned("terminates", self.terminates(now), k)
             failed = [i for i in moved if i in failures]
             terminations[failed] = True
             name, = self.task.command_names(self.episodes[0].rig.command_unit)

@@ -28,6 +28,18 @@ def actions_of(given, shape):
     return values.reshape(shape).astype(float)
 
 
+def returned(name, given, shape):
+    """What a subclass's method gave: numbers of this shape. Raises ValueError."""
+    try:
+        values = numpy.asarray(given)
+    except (TypeError, ValueError):
+        values = numpy.array(None)
+    if values.dtype.kind not in "fiub" or values.shape != shape:
+        many = f"an array of {shape[0]}, one for each member that moved" if shape else "one number"
+        raise ValueError(f"{name} returned {reprlib.repr(given)}: must be {many}")
+    return values
+
+
 def options_of(given):
     """Of a reset, as a dict of one's own."""
     if not isinstance(given, (dict, type(None))):
@@ -272,10 +284,9 @@ class Episode:
         self.rows.append((self.tick * self.tick_s, self.wanted[self.tick], self.last, *self.given, reward))
         return self.seen((self.last - before) / self.tick_s), reward, self.over()
 
-    def rewarded(self, reward, before):
-        """The ticks since there were so many rows, together, by whoever rewards them otherwise."""
-        earlier = sum(row[-1] for row in self.rows[before:-1])
-        self.rows[-1] = (*self.rows[-1][:-1], float(reward) - earlier)
+    def rewarded(self, reward):
+        """The last tick, by whoever rewards it otherwise."""
+        self.rows[-1] = (*self.rows[-1][:-1], reward)
 
     def over(self):
         return self.tick + 1 >= len(self.wanted)
