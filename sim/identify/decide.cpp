@@ -45,14 +45,13 @@ int size_of(const Scored& model) {
   return static_cast<int>(model.names.size()) - (model.described ? 1 : 0);
 }
 
-/// Of another model, by strong evidence.
+}  // namespace
+
 bool closes_the_gap_of(const Scored& model, const Scored& other) {
   return model.score > other.score + decisive.strong &&
          model.above_noise <= (1.0 - diagnose::thresholds.tell.closed) * other.above_noise &&
          other.above_noise > 0.0;
 }
-
-}  // namespace
 
 Decision decide(const std::vector<Scored>& table) {
   Decision decision;
@@ -88,7 +87,7 @@ Decision decide(const std::vector<Scored>& table) {
     const auto [nats, error] = loss(table[reference].held_out, table[i].held_out);
     if (!std::isfinite(table[i].score) || !(nats <= decisive.errors * error) || !allowed(table[i])) continue;
     if (table[i].general) continue;  // many terms are not simple
-    // A wide model error makes all predictions alike: what leaves the gap is no simpler way to close it.
+    // What leaves the gap is no simpler way to close it.
     if (closes_the_gap_of(table[reference], table[i])) continue;
     const Scored& chosen = table[decision.chosen];
     if (!allowed(chosen) || chosen.general || size_of(table[i]) < size_of(chosen) ||

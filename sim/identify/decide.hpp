@@ -34,6 +34,10 @@ struct Decision {
 
 Decision decide(const std::vector<Scored>& table);
 
+/// Whether a model closes most of what another one leaves, by strong evidence: a wide model error makes their
+/// predictions alike.
+bool closes_the_gap_of(const Scored& model, const Scored& other);
+
 /// By how much a model predicts worse than another one [nats], and the standard error of that.
 struct Loss {
   double nats, error;

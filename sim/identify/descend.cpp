@@ -25,7 +25,6 @@ constexpr double shortest = 0.003;            // step that is worth a simulation
 void Model::descend(const Effort& effort) {
   const Dictionary& dictionary = problem->dictionary;
   double reach = 3.0;
-  bool far = true;
   constexpr double again = 5.0;  // times as much as in the last round
   double evidence_before = -std::numeric_limits<double>::infinity();
   arrived = hopeless = false;
@@ -34,7 +33,7 @@ void Model::descend(const Effort& effort) {
     arrived = true;
     return;
   }
-  error = error.forgetting();
+  if (far) error = error.forgetting();
   for (int round = 0; round < effort.rounds; ++round) {
     fit_error(round == 0 ? std::vector{1.0, 0.5} : std::vector{0.5},
               far ? std::vector<std::size_t>{Error::model_sd} : std::vector<std::size_t>{});
@@ -118,7 +117,7 @@ bool Model::place() {
     if (is_simulated(point.differ[i])) placed.push_back(i);
   if ((placed.empty() && error.starts() == 0) || point.terms != Terms::none || !read.allFinite())
     return false;
-  constexpr double matters = 0.2, of_start = 0.1;  // of what is typical, of a deviation
+  constexpr double matters = 0.02, of_start = 0.1;  // of what is typical, of a deviation
   bool moved = false;
   for (int pass = 0; pass < 3; ++pass) {
     std::vector<std::size_t> scales{Error::model_sd};

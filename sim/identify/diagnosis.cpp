@@ -142,14 +142,17 @@ class HandingOver {
     const Verdict decided = of_the_rig(found_.decision.verdict);
     if (found_.ended != Ended::no && decided != Verdict::missing_effect) return Verdict::cannot_tell;
     const Model* parameters = found_.of(false);
-    // Parameters that leave more than noise, and most of the gap, are no answer.
-    if (decided == Verdict::recalibrate && !found_.chosen().error.explains() &&
+    // What leaves more than noise, and most of the gap, is no answer.
+    if ((decided == Verdict::recalibrate || decided == Verdict::missing_effect) &&
+        !found_.chosen().error.explains() &&
         gap_of(found_, three(found_.decision.chosen), experiment_.floor()).closed <
             diagnose::thresholds.tell.closed)
       return found_.table[found_.decision.best].general ? Verdict::unknown_effect : Verdict::cannot_tell;
-    if (decided != Verdict::nothing_missing || parameters == nullptr) return decided;
+    if (decided != Verdict::nothing_missing) return decided;
     // The rig as described may be chosen for being as good at unseen runs: the parameters say what it leaves.
-    if (!found_.chosen().error.explains() && !parameters->error.explains()) return Verdict::cannot_tell;
+    if (!found_.chosen().error.explains() && (parameters == nullptr || !parameters->error.explains()))
+      return Verdict::cannot_tell;
+    if (parameters == nullptr) return decided;
     step("what of the catalogue these data would show");
     const Visible seen = visible(*parameters);
     if (seen.hidden.empty()) return decided;

@@ -296,15 +296,19 @@ Identified Search::found() && {
   const auto missed = [&](const Model& m) { return rows_.rms(unpredicted(m, groups)); };
   const auto counts = [](const Model& m) { return std::isfinite(m.score) && !m.hopeless; };
   const auto is_general = [](const Model& m) { return m.point.terms != Terms::none; };
-  const Model* named = nullptr;
-  for (const auto& [key, m] : table_)
+  // Nor does anything explain that misses them by more than the rig as described: its error and wander do.
+  const Model *named = nullptr, *described = nullptr;
+  for (const auto& [key, m] : table_) {
     if (counts(m) && !is_general(m) && (named == nullptr || m.score > named->score)) named = &m;
-  const double most = named != nullptr ? missed(*named) : std::numeric_limits<double>::infinity();
+    if (counts(m) && key.first) described = &m;
+  }
+  const auto most = [&](const Model* m) { return m ? missed(*m) : std::numeric_limits<double>::infinity(); };
+  const double most_of_terms = most(named), most_of_all = most(described);
   const double noise = std::max(rows_.noise.front(), rows_.count / std::sqrt(12.0));
   for (auto& [key, m] : table_) {
     if (!counts(m)) continue;
     const double misses = missed(m);
-    if (is_general(m) && misses > most) continue;
+    if ((is_general(m) && misses > most_of_terms) || misses > most_of_all) continue;
     result.table.push_back({.names = key.second,
                             .described = key.first,
                             .general = is_general(m),

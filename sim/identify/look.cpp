@@ -294,6 +294,7 @@ bool Search::look_from(Model base, bool far, bool first) {
     const auto next = best_by(&Model::Here::hoped), best = best_by(&Model::Here::evidence);
     if (next == best || next->model.arrived) break;
     step("trying what promises most");
+    next->model.far = false;
     next->model.settle({.rounds = 1});
     const Model::Here before = std::exchange(next->here, next->model.here());
     if (next->here.evidence < before.evidence + worth) next->here.hoped = next->here.evidence;  // in vain

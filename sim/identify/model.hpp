@@ -72,6 +72,7 @@ class Model {
   Eigen::VectorXd read;
   Eigen::MatrixXd slopes;
 
+  bool far = true;        ///< descends by an error that forgets at once, until that promises nothing
   bool arrived = false;   ///< at the most probable numbers
   bool hopeless = false;  ///< it would not have come near what it was to beat
   // of evidence()

@@ -30,6 +30,7 @@ bool has(const Names& names, const std::string& name) {
 /// favours one as much in every run: strong evidence of each start is none.
 bool rivals_chosen(const Identified& found, std::size_t i) {
   const Scored &chosen = found.table[found.decision.chosen], &other = found.table[i];
+  if (closes_the_gap_of(chosen, other)) return false;
   const auto [nats, error] = loss(chosen.held_out, other.held_out);
   const Rows& rows = found.study->rows;
   const double guesses =

@@ -173,6 +173,30 @@ TEST(HandedOver, WhichRunHasAnotherLoadAndWhichItIs) {
   EXPECT_TRUE(holds(found.because, "kg less than written (in the data set: load: 16.1", "Apart from that"));
 }
 
+// Loads that were simulated coarsely left what a factor of all loads then explained.
+TEST(HandedOver, TwoFaultsOfTheBenchAndNoThird) {
+  domain::Dataset data = diagnose::small({});
+  data.runs[4].load_kg += 2.0;
+  data.runs[5].load_kg += 2.0;
+  for (double& ratio : data.runs[0].readings[0].values) ratio += 0.005;
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 3U) << found.because;
+  for (const diagnose::BenchFault& fault : found.bench)
+    EXPECT_TRUE(surrounds(fault.size, fault.name == "zeros_differ" ? 0.005 : -2.0)) << fault.words;
+  EXPECT_TRUE(found.effects.empty());
+}
+
+// A leak shows in the gauge, too, which the zero of it hides from an error that forgets at once.
+TEST(HandedOver, ALeakBesideAGaugeWhoseZeroIsOff) {
+  plant::Rig truth = with_a_leak();
+  truth.sensors.put({.signal = plant::Sensed::muscle_pressure, .kind = plant::SensorKind::gauge});
+  truth.effects.get<plant::GaugeError>().offset_Pa = 6e3;
+  const Diagnosis found = handed_over(diagnose::small(truth));
+  ASSERT_EQ(found.effects.size(), 2U) << found.because;
+  for (const diagnose::NamedEffect& effect : found.effects)
+    EXPECT_TRUE(surrounds(effect.parameters[0], effect.name == "muscle_leak" ? 2e-10 : 6e3)) << effect.name;
+}
+
 // What a model of which all loads may differ had left to each of them was in no file: 0.3 mm in all runs.
 TEST(HandedOver, ARigThatMeetsTheDataWithTheLoadsAsTheyAreReported) {
   domain::Dataset data = diagnose::small(with_a_leak());
