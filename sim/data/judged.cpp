@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include <sim/data/finding.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/scatter.hpp>
 #include <sim/data/series.hpp>
@@ -32,6 +33,19 @@ double median_gap_s(const Measurement& measured) {
   return gaps.empty() ? even_row_s : upper_median(std::move(gaps));
 }
 
+bool is_fast(const Measurement& measured, double gap_s, double row_s) {
+  return row_s / gap_s >= enough_readings && !measured.counted;
+}
+
+/// Rows of fast readings: their number and how many of them are skipped.
+struct EvenRows {
+  std::size_t all, skipped;
+
+  EvenRows(const Measurement& measured, double row_s)
+      : all(static_cast<std::size_t>(std::floor((measured.time_s.back() - measured.time_s.front()) / row_s))),
+        skipped(static_cast<std::size_t>(std::ceil(measured.recorded.skip_s / row_s - 1e-9))) {}
+};
+
 /// One run: its rows, and the stamps that drive it.
 class Judging {
  public:
@@ -43,7 +57,7 @@ class Judging {
     if (raw_.recorded.start == domain::Start::moving) raw_.first = first_state(raw_);
     raw_.filled_Pa = first_pressure_Pa(raw_);
     gap_s_ = median_gap_s(raw_);
-    fast_ = row_s_ / gap_s_ >= enough_readings && !raw_.counted;
+    fast_ = is_fast(raw_, gap_s_, row_s_);
     Measurement driving = fast_ ? thinned() : as_recorded();
     judge(driving);
     shake(driving);
@@ -58,7 +72,6 @@ class Judging {
   bool fast() const { return fast_; }
 
  private:
-  double end_s() const { return raw_.time_s.back(); }
   double begin_s() const { return raw_.time_s.front(); }
 
   /// Without what is only read; what is given has no values yet.
@@ -119,8 +132,7 @@ class Judging {
       if (column.given)
         inputs.push_back({column, Column(raw_.time_s, column.values), range_of(column.values)});
     const double quarter_s = row_s_ / static_cast<double>(quarters);
-    const auto skipped = static_cast<std::size_t>(std::ceil(raw_.recorded.skip_s / row_s_ - 1e-9));
-    const auto rows = static_cast<std::size_t>(std::floor((end_s() - begin_s()) / row_s_));
+    const auto [rows, skipped] = EvenRows(raw_, row_s_);
     for (std::size_t j = 0; j <= rows * quarters; ++j) {
       const double now_s = begin_s() + static_cast<double>(j) * quarter_s;
       if (j % quarters == quarters / 2 && j / quarters >= skipped) thin.rows.push_back(thin.time_s.size());
@@ -294,13 +306,6 @@ class Judging {
   bool fast_ = false;
 };
 
-/// Between the rows of the whole data set.
-double row_s_of(const domain::Dataset& data) {
-  double slowest_s = 0.0;
-  for (const domain::Run& run : data.runs) slowest_s = std::max(slowest_s, median_gap_s(*run.measured));
-  return slowest_s * enough_readings > even_row_s ? slowest_s : even_row_s;
-}
-
 /// Readings at the end of a load cell's range say no more than that. How many there are.
 std::size_t leave_out_the_end(const plant::Sensor* cell, std::vector<double>& force_N) {
   if (cell == nullptr || !cell->highest) return 0;
@@ -315,8 +320,37 @@ std::size_t leave_out_the_end(const plant::Sensor* cell, std::vector<double>& fo
 
 }  // namespace
 
+double row_s_of(const domain::Dataset& data) {
+  double slowest_s = 0.0;
+  for (const domain::Run& run : data.runs) slowest_s = std::max(slowest_s, median_gap_s(*run.measured));
+  return slowest_s * enough_readings > even_row_s ? slowest_s : even_row_s;
+}
+
+std::vector<std::size_t> runs_without_rows(const domain::Dataset& data) {
+  std::vector<std::size_t> list;
+  if (!data.own_clock || data.rows_of_stamps) return list;
+  const double row_s = row_s_of(data);
+  for (std::size_t i = 0; i < data.runs.size(); ++i) {
+    const Measurement& measured = *data.runs[i].measured;
+    bool any = false, reads = false;
+    for (std::size_t k = 0; k < measured.time_s.size(); ++k) reads = reads || measured.has_row(k);
+    if (is_fast(measured, median_gap_s(measured), row_s)) {
+      const auto [rows, skipped] = EvenRows(measured, row_s);
+      any = skipped < rows;
+    } else {
+      for (std::size_t k = 0; k < measured.time_s.size(); ++k)
+        any = any || (measured.time_s[k] - measured.time_s.front() >= measured.recorded.skip_s &&
+                      measured.has_row(k));
+    }
+    if (reads && !any) list.push_back(i);
+  }
+  return list;
+}
+
 domain::Dataset with_rows(domain::Dataset data) {
   if (!data.own_clock || data.rows_of_stamps) return data;
+  if (auto runs = runs_without_rows(data); !runs.empty())
+    throw UnfitData(data, {{.quantity = "time", .runs = std::move(runs), .message = "no row is left of it"}});
   Rows rows{.row_s = row_s_of(data), .readings = 0.0};
   std::vector<double> squares;
   std::map<std::string_view, std::vector<double>> squares_beside;

@@ -7,13 +7,22 @@
 // Where readings come slowly, rows are the stamps, and nothing is smoothed; of settled points each is a row.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include <sim/domain/dataset.hpp>
 
 namespace mckibben::data {
 
+/// Between the rows of runs of stamps: 12 ms, or what the slowest one has.
+double row_s_of(const domain::Dataset& data);
+
+/// Runs of stamps of which no row would be left: shorter than the rows of the slowest one, or skipped.
+std::vector<std::size_t> runs_without_rows(const domain::Dataset& data);
+
 /// The runs with their rows, what is skipped left out. Of one muscle, with a hanging load whose contraction
 /// was read or at a given length and with its force, or of a pair whose angle was read; data with a row each
-/// tick are what they are.
+/// tick are what they are. Throws UnfitData where a run would have none.
 domain::Dataset with_rows(domain::Dataset data);
 
 }  // namespace mckibben::data

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <sim/data/amount.hpp>
+#include <sim/data/clocks.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
 #include <sim/data/rounded.hpp>
@@ -40,12 +41,6 @@ double lower_share(Series values, double share) {
   return *at;
 }
 
-double typical_step_s(const Series& time_s) {
-  Series steps;
-  for (std::size_t k = 1; k < time_s.size(); ++k) steps.push_back(time_s[k] - time_s[k - 1]);
-  return steps.empty() ? 0.0 : upper_median(std::move(steps));
-}
-
 /// The unit in which a number comes nearest to what a supply gives, without going beyond.
 std::string unit_below(double number, double most_Pa) {
   for (const auto& [name, size] : pressure_units)
@@ -58,9 +53,10 @@ class Plausible {
   explicit Plausible(const domain::Dataset& data) : data_(data) {}
 
   std::vector<Finding> operator()() {
+    found_ = wrong_clocks(data_);
+    kinds_.resize(found_.size(), "clock");
     for (run_ = 0; run_ < data_.runs.size(); ++run_) {
       map_ = with_our_names(domain::merged(data_.columns, run().columns), data_.rig.command_unit());
-      if (run().measured && run().measured->point_s == 0.0) clock(run().measured->time_s);
       if (run().measured)
         for (const domain::MeasuredColumn& column : run().measured->columns) look_at(column);
       else {
@@ -89,43 +85,6 @@ class Plausible {
     kinds_.push_back(quantity + kind);
     found_.push_back(
         {.quantity = quantity, .runs = {run_}, .message = std::move(message), .severity = severity});
-  }
-
-  void clock(const Series& time_s) {
-    if (time_s.size() < 3) return;
-    const double lasts_s = time_s.back() - time_s.front(), step_s = typical_step_s(time_s);
-    ColumnPlace meant = map_["time"];
-    if (const std::string why = too_short(time_s, meant); !why.empty())
-      return find("time", "short", why, Severity::refused);
-    if (step_s >= limits.longest_step_s && lasts_s > limits.longest_run_s) {
-      const std::string said = meant.unit;
-      meant.unit = said == "s" ? "ms" : said == "ms" ? "us" : "ns";
-      const std::string seen =
-          fmt::format("lasts {:.3g} h, its rows are {:.3g} s apart: is ", lasts_s / 3600.0, step_s);
-      find("time", "long",
-           said == "date" ? seen + "that its clock? Dates may have lost parts of seconds"
-                          : seen + fmt::format("its time in {}, not in {}? Then {}", meant.unit, said,
-                                               line("time", meant)),
-           Severity::doubtful);
-    }
-    const double bridge_s = run().measured->recorded.bridge_s;
-    const double bridged_s = bridge_s > domain::Recorded{}.bridge_s ? bridge_s : 0.0;  // somebody said so
-    std::size_t gaps = 0, widest = 1;
-    for (std::size_t k = 1; k < time_s.size(); ++k) {
-      const double gap_s = time_s[k] - time_s[k - 1];
-      if (gap_s > std::max({limits.gap_steps * step_s, limits.gap_s, bridged_s})) ++gaps;
-      if (gap_s > time_s[widest] - time_s[widest - 1]) widest = k;
-    }
-    if (gaps > 0 && static_cast<double>(gaps) < limits.most_gaps * static_cast<double>(time_s.size()))
-      find(
-          "", "gap",
-          fmt::format(
-              "no rows from {:.4g} s to {:.4g} s, elsewhere {:.3g} ms apart{}: what drove the rig meanwhile "
-              "is not known; leave out what is after or before it: to: {:.6g} s or from: {:.6g} s of the run",
-              time_s[widest - 1], time_s[widest], 1e3 * step_s,
-              gaps > 1 ? fmt::format(" ({} gaps)", gaps) : "", time_s[widest - 1] - time_s.front(),
-              time_s[widest] - time_s.front()),
-          Severity::doubtful);
   }
 
   void look_at(const domain::MeasuredColumn& column) {
@@ -331,23 +290,6 @@ class Plausible {
 };
 
 }  // namespace
-
-std::string too_short(const std::vector<double>& time_s, ColumnPlace time) {
-  const double lasts_s = time_s.empty() ? 0.0 : time_s.back() - time_s.front(),
-               step_s = typical_step_s(time_s);
-  if (time_s.size() < 3 || lasts_s >= limits.shortest_run_s || step_s >= limits.shortest_step_s) return "";
-  const std::string said = time.absent() ? "s" : time.unit;
-  if (said == "s" || said == "date")
-    return fmt::format(
-        "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is that its clock? unit and factor in "
-        "columns: time say so",
-        1e3 * lasts_s, time_s.size(), 1e6 * step_s);
-  time.unit = said == "us" ? "ms" : said == "ns" ? "us" : "s";
-  return fmt::format(
-      "lasts {:.3g} ms, its {} rows are {:.3g} us apart: is its time in {}, not in {}? Then write "
-      "columns: {{{}}}",
-      1e3 * lasts_s, time_s.size(), 1e6 * step_s, time.unit, said, line_in_unit("time", time));
-}
 
 std::optional<double> size_Pa(std::string_view unit) {
   unit = unit.substr(0, unit.find_first_of(" ("));  // psi a, bar(abs)

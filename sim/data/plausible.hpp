@@ -12,9 +12,8 @@
 
 namespace mckibben::data {
 
-/// Runs that last next to nothing or half a day, gaps in stamps, readings that never move, the same rows
-/// under two names, given pressures that no supply has, that are absolute, or that could lift nothing, steps
-/// coarser than the sensor's.
+/// Clocks that cannot be, readings that never move, the same rows under two names, given pressures that no
+/// supply has, that are absolute, or that could lift nothing, steps coarser than the sensor's.
 std::vector<Finding> implausible(const domain::Dataset& data);
 
 /// The step that a run's readings of position come in, where it is coarser than what the rig's sensor
@@ -26,8 +25,5 @@ std::optional<double> size_Pa(std::string_view unit);
 
 /// What to write if the pressure that this key gives is absolute; empty if it has a zero.
 std::string if_absolute(const domain::Dataset& data, std::size_t run, const std::string& key);
-
-/// That stamps last next to nothing, and the unit that they may be in; empty if they do not.
-std::string too_short(const std::vector<double>& time_s, domain::ColumnPlace time);
 
 }  // namespace mckibben::data

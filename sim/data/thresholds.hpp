@@ -44,6 +44,7 @@ struct ColumnThresholds {
   double fitting_unit = 0.3;  ///< of a reading's range: what is left, its root, in the unit that is meant
   double beside_stated_unit = 0.1;  ///< the same, where the heading says the unit that is read
   double one_gauge = 1.1;           ///< factors as near as that are one of the gauge: a leak's differ by run
+  double other_span = 1.15, one_span = 1.05;  ///< no valve's own span is off by that factor; of all runs
   double other_zero = 0.3;    ///< of the model's range: an offset of a contraction, if little else is left
   double off_at_rest = 0.04;  ///< contraction ratio: no bladder or thread gives so much without pressure
   double hardly_pulls = 0.5;  ///< of the load: a muscle twice as strong would not lift it
@@ -52,6 +53,13 @@ struct ColumnThresholds {
   double zero_Pa = 0.2e5, zero_accuracies = 5.0;  ///< no gauge's own zero is off by more, nor by so many rms
   double same_zero = 0.25;                        ///< of that offset: all runs agree on it
   double zero_of_load_cell = 0.02;  ///< of the largest load: no load cell's own zero is off by more
+};
+
+/// Columns that are tried in each other's place.
+struct ExchangedThresholds {
+  std::size_t most_runs = 4, most_stamps = 20'000, most_rows = 2'000;  ///< simulated for each pair
+  double most_left = 0.25;  ///< of the squares of every reading; as they are said, more is left of one,
+  double nearer = 0.25;     ///< and so much less of it
 };
 
 /// Loads, weighed by the muscle.
@@ -112,12 +120,18 @@ struct ReadingThresholds {
   double same_load = 0.01;           ///< relative: one load
 };
 
-/// What is asked about before anything is simulated.
-struct PlausibleThresholds {
+/// Clocks of recorders.
+struct ClockThresholds {
   double shortest_run_s = 0.02, shortest_step_s = 1e-3;  ///< no muscle does anything in so short a time
   double longest_run_s = 600.0, longest_step_s = 0.5;    ///< slower records are of leaks, not of motion
   double gap_steps = 10.0, gap_s = 0.1;                  ///< a gap is longer than so many steps, and so long
   double most_gaps = 0.02;                               ///< of all rows: more are how it was recorded
+  double short_run_s = 0.2, short_step_s = 1e-4;         ///< hardly anybody records so little so quickly
+  double near_unit = 4.0;  ///< of 1e3 or 1e6: rows of two runs are apart by a unit
+};
+
+/// What is asked about before anything is simulated.
+struct PlausibleThresholds {
   std::size_t least_rows = 10;
   double beyond_supply = 1.5, high_Pa = 1e6;  ///< that a given pressure reaches at most
   double beyond_span = 0.01;                  ///< of a valve's range of commands: an offset of the DAC
@@ -147,10 +161,12 @@ struct StartThresholds {
 };
 
 struct Thresholds {
+  ClockThresholds clock{};
   PlausibleThresholds plausible{};
   StartThresholds start{};
   LookThresholds look{};
   ColumnThresholds column{};
+  ExchangedThresholds exchanged{};
   LoadThresholds load{};
   ReadingThresholds reading{};
 };

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <sim/data/plausible.hpp>
+#include <sim/data/clocks.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/input/arranged.hpp>
 #include <sim/input/column_units.hpp>

@@ -104,6 +104,14 @@ TEST_F(PlausibleData, RunsThatLastNextToNothingOrHours) {
             "doubtful: lasts 55.3 h, its rows are 1e+03 s apart", "unit: ms"));
 }
 
+TEST_F(PlausibleData, RunsWhoseRowsAreAThousandTimesAsFarApartAsOthers) {
+  EXPECT_TRUE(
+      holds(said(find(good, "s")),
+            "refused: lasts 0.553 h, its rows are 10 s apart, those of run b 10 ms: is its time in ms, "
+            "not in s? Then write columns: {time: {column: t, unit: ms, factor: 1}}"));
+  EXPECT_TRUE(lacks(said(find(good, "s")), "no row is left"));
+}
+
 TEST_F(PlausibleData, ASkipBeyondAShortRunIsAskedToo) {
   find(good, "us");
   std::ifstream file(place_ / "dataset.yaml");

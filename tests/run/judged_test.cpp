@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/data/finding.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/run/follow.hpp>
 
@@ -188,6 +189,14 @@ TEST(Judged, ARowEachTickIsWhatItIs) {
   data.runs.emplace_back().read("contraction", {0.1, 0.2});
   EXPECT_FALSE(with_rows(data).rows_of_stamps);
   EXPECT_EQ(data.row_s(), data.rig.tick_s);
+}
+
+TEST(Judged, ARunOfWhichNoRowIsLeftIsRefused) {
+  domain::Dataset data = recorded(1000.0, true);
+  EXPECT_TRUE(data::runs_without_rows(data).empty());
+  data.runs.front().measured->recorded.skip_s = 1.997;
+  EXPECT_EQ(data::runs_without_rows(data), std::vector<std::size_t>{0});
+  EXPECT_THROW(with_rows(data), data::UnfitData);
 }
 
 }  // namespace
