@@ -55,6 +55,13 @@ std::string unit_in_heading(std::string_view heading, const domain::Quantity& qu
   return unit_word(unit);
 }
 
+/// Whether a heading that says a unit of another kind means it: in brackets, or volts and amperes of a
+/// sensor. A 1 is a channel; behind _ all else may be a word, as in p_in.
+bool means_its_unit(std::string_view heading, const std::string& unit) {
+  if (heading.ends_with(']') || heading.ends_with(')')) return unit != "1";
+  return unit_problem(unit, "V").empty() || unit_problem(unit, "mA").empty();
+}
+
 /// Which of them the rig's valve takes is asked once the rig is known.
 std::string command_problem(const std::string& unit) {
   for (const auto& [each, name] : names(plant::CommandUnit{}))
@@ -115,14 +122,16 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
     std::vector<double> one{1.0};
     const bool of_mass = quantity.unit() == "N" && unit_problem(said, "kg").empty() && taken.ends_with('f');
     const bool fits = taken == said || unit_problem(said, taken).empty();
-    if (of_mass) continue;              // a load cell that shows kg
-    if (in_heading && !fits) continue;  // it may be no unit at all
+    if (of_mass) continue;                                                        // a load cell that shows kg
+    if (in_heading && !fits && !means_its_unit(column->in_file, said)) continue;  // it may be no unit at all
     if (taken == said || (fits && (convert_units(one, said, taken), one.front() == 1.0))) continue;
     const std::string what = fmt::format("{} says {}, and it is read in {}; ",
                                          in_heading ? "its heading" : "the table", said, taken);
     if (!problem_of(quantity, said).empty())
-      problems.add(table, *column, 0,
-                   fmt::format("{}write factor: how many {} are 1 {}, also if it is 1", what, taken, said));
+      problems.add(
+          table, *column, 0,
+          fmt::format("{0}write factor: how many {1} are 1 {2}, also if it is 1, and zero: the {2} at {3}",
+                      what, taken, said, quantity.key == "contraction" ? "rest length" : "0 " + taken));
     else
       problems.add(
           table, *column, 0,

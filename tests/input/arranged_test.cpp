@@ -341,5 +341,19 @@ TEST_F(Arranged, AHeadingThatContradictsTheMapIsAsked) {
   EXPECT_EQ(refused("t_ms,p,x\n0,1,0\n10,2,1\n20,3,2\n", "column: t_ms, unit: s, factor: 1"), "accepted");
 }
 
+TEST_F(Arranged, AHeadingWithAUnitOfAnotherKindIsAskedForAFactor) {
+  const auto said = [&](const std::string& heading, const std::string& more = "") {
+    return refused("t,p," + heading + "\n0,1,0\n10,2,1\n20,3,2\n", in_ms, "", "",
+                   "column: \"" + heading + "\", unit: mm" + more);
+  };
+  EXPECT_TRUE(holds(said("wire (V)"),
+                    "r.csv:2:5: error: wire (V): its heading says V, and it is read in mm; write factor: how "
+                    "many mm are 1 V, also if it is 1, and zero: the V at rest length"));
+  EXPECT_TRUE(holds(said("wire_mA"), "its heading says mA"));
+  EXPECT_TRUE(holds(said("wire [bar]"), "its heading says bar"));
+  EXPECT_EQ(said("wire (V)", ", factor: 10"), "accepted");
+  for (const char* no_unit : {"x_V", "x (1)", "x_min", "x (left)"}) EXPECT_EQ(said(no_unit), "accepted");
+}
+
 }  // namespace
 }  // namespace mckibben::input
