@@ -60,6 +60,16 @@ double even_step_s(const Series& time_s) {
   return step_s;
 }
 
+/// The last contraction on the way from 0 to `far` where the braid's laws hold, by bisection.
+double end_of_laws(const plant::Braid& braid, double far) {
+  double inside = 0.0;
+  while (std::abs(far - inside) > 1e-9) {
+    const double middle = 0.5 * (inside + far);
+    (braid.in_domain(middle) ? inside : far) = middle;
+  }
+  return inside;
+}
+
 class Ranges {
  public:
   Ranges(std::span<const ReadColumn> columns, const ColumnMap& map, const plant::Rig& rig)
@@ -118,7 +128,7 @@ class Ranges {
   }
 
   void contraction(ColumnPlace meant) {
-    if (meant.as == domain::Role::input) return held();
+    if (meant.as == domain::Role::input) return held(std::move(meant));
     const Series* current =
         commands_ ? nullptr : values_of(plant::Channel{&plant::command_of(rig_.command_unit())}.name());
     const Series* pressure = values_of("muscle_pressure_bar");
@@ -131,13 +141,12 @@ class Ranges {
     if (current != nullptr && within(*current, lowest_ratio, highest_ratio) &&
         within(values(), rig_.dac.lowest_command, rig_.dac.largest_command)) {
       exchanged_with(plant::command_key(rig_), map_["current"]);
+    } else if (within(values(), -thresholds.column.beyond_reach * most_ratio(), hardly_contracts)) {
+      hint = with_the_other_sign(meant);  // whatever else its numbers would be as well
     } else if (pressure != nullptr && could_be_exchanged(*pressure, map_["muscle_pressure"], meant)) {
       exchanged_with("muscle_pressure", map_["muscle_pressure"]);
     } else if (within(values(), -infinite, hardly_contracts)) {
-      meant.factor = -meant.factor;
-      hint =
-          fmt::format("if it falls as the muscle contracts, its sign is the other one; write columns: {{{}}}",
-                      line_of("contraction", meant));
+      hint = with_the_other_sign(meant);
     } else if (meant.unit != "1" && meant.zero == 0.0 && within(values(), highest_ratio, infinite)) {
       hint = fmt::format(
           "does it read something else than 0 at rest length? Then columns: {{{}}} says so with zero: and "
@@ -163,6 +172,14 @@ class Ranges {
     look(lowest_ratio, highest_ratio, "what a muscle can do", hint);
   }
 
+  static std::string with_the_other_sign(ColumnPlace meant) {
+    meant.factor = -meant.factor;
+    return fmt::format(
+        "if it falls as the muscle contracts, its sign is the other one; write columns: {{{}}}",
+        line_of("contraction", meant));
+  }
+  double most_ratio() const { return plant::Braid(rig_.muscle).largest_contraction_ratio(); }
+
   /// Whether either column would do as the other: as a contraction that is one, and a pressure of the supply.
   bool could_be_exchanged(const Series& pressure_bar, const ColumnPlace& as_pressure,
                           const ColumnPlace& as_contraction) const {
@@ -183,7 +200,7 @@ class Ranges {
   std::string likely_unit(const std::string& said) const {
     const std::vector<Unit> units = units_of_contraction(rig_);
     const Unit* const own = find_unit(units, said);
-    const double most = plant::Braid(rig_.muscle).largest_contraction_ratio();
+    const double most = most_ratio();
     for (const Unit& unit : units) {
       const double ratio = own != nullptr ? largest_read(values()) / own->size * unit.size : 0.0;
       if (unit.name != said && ratio > hardly_contracts && ratio < thresholds.column.beyond_reach * most)
@@ -192,14 +209,12 @@ class Ranges {
     return said == "mm" ? "count" : "mm";
   }
 
-  void held() {
+  /// A length that is given: no muscle can be held where its laws end.
+  void held(ColumnPlace meant) {
     const plant::Braid braid(rig_.muscle);
-    for (std::size_t row = 0; row < values().size(); ++row)
-      if (const double value = values()[row]; !std::isnan(value) && !braid.in_domain(value))
-        found_.push_back(
-            {at_, row,
-             fmt::format("contraction_ratio = {} is out of range (what this muscle can be held at)",
-                         write_number(value))});
+    const double lowest = end_of_laws(braid, lowest_ratio - 1.0), highest = end_of_laws(braid, highest_ratio);
+    look(lowest, highest, "what this muscle can be held at",
+         within(values(), -highest, -lowest) ? with_the_other_sign(meant) : other("contraction", meant));
   }
 
   void pressure(const domain::Quantity& quantity, ColumnPlace meant) {

@@ -1,0 +1,61 @@
+// Columns out of range: what is asked about them.
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <sim/data/ranges.hpp>
+
+#include "says.hpp"
+
+namespace mckibben::data {
+namespace {
+
+std::vector<double> even(double from, double to) {
+  std::vector<double> values;
+  for (int k = 0; k < 20; ++k) values.push_back(from + (to - from) * k / 19.0);
+  return values;
+}
+
+plant::Rig rig_of_250_mm() {
+  plant::Rig rig;
+  rig.muscle.rest_length_m = 0.25;
+  return rig;
+}
+
+TEST(Ranges, ASignComesBeforeAnExchangeOfColumns) {
+  domain::ColumnMap map;
+  map["contraction"] = {.column = "wire", .unit = "mm", .zero = 312.4};
+  map["muscle_pressure"] = {.column = "p", .unit = "bar"};
+  const std::vector<double> pressure_bar = even(1.0, 5.5);
+  const auto asked = [&](const std::vector<double>& ratios) {
+    const std::vector<ReadColumn> columns{{"contraction_ratio", &ratios},
+                                          {"muscle_pressure_bar", &pressure_bar}};
+    const auto found = check_ranges(columns, map, rig_of_250_mm());
+    return found.empty() ? "" : found.front().message;
+  };
+  const std::string sign = asked(even(-0.249, -0.019));
+  EXPECT_TRUE(holds(sign, "its sign is the other one", "zero: 312.4, factor: -1}"));
+  EXPECT_TRUE(lacks(sign, "exchanged"));
+  EXPECT_TRUE(holds(asked(even(-1.25, -1.2)), "it looks exchanged with muscle_pressure"));
+  EXPECT_EQ(asked(even(0.0, 0.2)), "");
+}
+
+TEST(Ranges, LengthsThatNoMuscleCanBeHeldAtAreToldOnce) {
+  domain::ColumnMap map;
+  map["contraction"] = {.column = "x", .unit = "mm", .factor = -1.0, .as = domain::Role::input};
+  const auto told = [&](double ratio) {
+    const std::vector<double> ratios(20, ratio);
+    const std::vector<ReadColumn> columns{{"contraction_ratio", &ratios}};
+    return check_ranges(columns, map, rig_of_250_mm());
+  };
+  const auto low = told(-0.18);
+  ASSERT_EQ(low.size(), 1u);
+  EXPECT_TRUE(holds(low.front().message, "contraction_ratio = -0.18 is out of range: -0.0",
+                    "what this muscle can be held at", "as in 20 of 20 rows", "its sign is the other one",
+                    "{contraction: {column: x, unit: mm, as: input}}"));
+  EXPECT_TRUE(lacks(told(0.95).front().message, "its sign is the other one"));
+  EXPECT_TRUE(told(0.1).empty());
+}
+
+}  // namespace
+}  // namespace mckibben::data
