@@ -14,6 +14,7 @@
 #include <plant/instruments.hpp>
 #include <sim/data/amount.hpp>
 #include <sim/data/columns.hpp>
+#include <sim/data/exchanged.hpp>
 #include <sim/data/gains.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
@@ -103,18 +104,29 @@ class Columns {
 
   void operator()() {
     if (auto found = reversed_flow(data_)) return findings_.push_back(std::move(*found));
+    findings_ = exchanged(data_, expected_);
+    if (!findings_.empty()) {  // what else their columns seem to be is not so
+      map_ =
+          with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
+      Compared all;
+      for (std::size_t i = 0; i < data_.runs.size(); ++i) all.add(i, data_.runs[i], expected_[i]);
+      if (data_.judged() == domain::Judged::angle) angle(all);
+      return;
+    }
     for (std::size_t i = 0; i < data_.runs.size(); ++i) {
       const domain::Run& run = data_.runs[i];
       map_ = with_our_names(domain::merged(data_.columns, run.columns), data_.rig.command_unit());
       const bool hangs = data_.judged() == domain::Judged::contraction && run.find("contraction") != nullptr;
       const bool of_mA = data_.rig.command_unit() == plant::CommandUnit::mA;
-      if (hangs && !data_.own_clock && of_mA) {  // else ranges of the rig's valve have been looked at
-        if (exchanged(i)) continue;
-        current(i);
-      }
+      // Else ranges of the rig's valve have been looked at.
+      if (hangs && !data_.own_clock && of_mA) current(i);
       if (hangs) judge(contraction(run), compared(i));
       for (std::size_t reading = 1; reading < run.readings.size(); ++reading)
         if (run.readings[reading].channel.is_pressure()) gauge(i, reading);
+    }
+    if (auto found = other_span_of_the_valve()) {
+      findings_.clear();  // under other pressures than the rig's nothing else is what it seems
+      return findings_.push_back(std::move(*found));
     }
     for (const auto& [line, gauge] : gauges_)
       if (auto found = other_gain(gauge.second, gauge.first.key, gauge.first.place))
@@ -136,10 +148,6 @@ class Columns {
     if (const domain::Reading& read = data_.runs.front().judged(); read.channel.is_pressure())
       judge(pressure(read.channel), all);
     for (const auto& [key, runs] : forces) load_cell(key, runs);
-    for (const domain::Reading& read : data_.runs.front().readings)
-      if (read.channel.muscle == 1)
-        if (auto found = of_the_other_muscle(data_, expected_, map_, *read.channel.signal))
-          findings_.push_back(std::move(*found));
     if (data_.recorded.start != domain::Start::settled) return;
     const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::muscle_pressure);
     for (const auto& [line, gauge] : gauges_)
@@ -149,6 +157,20 @@ class Columns {
   }
 
  private:
+  /// Of one muscle whose valve is commanded and whose gauge was read in all runs, whatever their columns.
+  std::optional<Finding> other_span_of_the_valve() const {
+    if (data_.rig.pair() != nullptr || data_.pressure_is_given() || data_.valve_pressure_is_given())
+      return std::nullopt;
+    std::vector<Compared> runs;
+    for (const auto& [line, gauge] : gauges_)
+      if (gauge.first.key == "muscle_pressure")
+        runs.insert(runs.end(), gauge.second.begin(), gauge.second.end());
+    if (runs.size() != data_.runs.size()) return std::nullopt;
+    const domain::ColumnMap map =
+        with_our_names(domain::merged(data_.columns, data_.runs.front().columns), data_.rig.command_unit());
+    return other_span(runs, "muscle_pressure", map["muscle_pressure"], data_.rig.valve);
+  }
+
   Compared compared(std::size_t i, std::size_t reading = 0) const {
     Compared rows;
     rows.add(i, data_.runs[i], expected_[i], reading);
@@ -287,27 +309,6 @@ class Columns {
                      seen / quantity.of_shown, quantity.shown, scale),
          what);
     return false;
-  }
-
-  bool exchanged(std::size_t i) {
-    const domain::Run& run = data_.runs[i];
-    const domain::Reading* gauge = run.find("muscle_pressure");
-    if (gauge == nullptr) return false;
-    const double most_bar = largest(gauge->values) / plant::Pa_per_bar;
-    const double supply_bar = data_.rig.valve.supply_pressure_Pa / plant::Pa_per_bar;
-    if (most_bar < of_columns.beyond_rig * supply_bar ||
-        most_bar > data_.rig.dac.largest_command + of_columns.rounding_mA ||
-        largest(run.current_mA) > of_columns.within_supply * supply_bar)
-      return false;
-    ColumnPlace current = map_["current"], pressure = map_["muscle_pressure"];
-    std::swap(current.column, pressure.column);
-    find("muscle_pressure", {i},
-         fmt::format("muscle_pressure is up to {:.4g} bar, more than the supply has, "
-                     "and the current up to {:.3g} mA: ",
-                     most_bar, largest(run.current_mA)),
-         mend("these two columns look exchanged",
-              fmt::format("{}, {}", line_of("current", current), line_of("muscle_pressure", pressure))));
-    return true;
   }
 
   void current(std::size_t i) {

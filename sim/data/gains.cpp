@@ -254,6 +254,42 @@ std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::
       .severity = Severity::doubtful};
 }
 
+std::optional<Finding> other_span(const std::vector<Compared>& runs, const std::string& key,
+                                  ColumnPlace place, const plant::Valve& valve) {
+  if (valve.is_on_off() || valve.seals() || runs.empty()) return std::nullopt;
+  const auto share_of = [](const Compared& rows) {  // of what the rig would do
+    double along = 0.0, all = 0.0;
+    for (std::size_t k = 0; k < rows.model.size(); ++k) {
+      along += rows.measured[k] * rows.model[k];
+      all += rows.model[k] * rows.model[k];
+    }
+    return along / all;
+  };
+  Compared gauge;
+  for (const Compared& run : runs) gauge.add(run);
+  std::ranges::sort(gauge.runs);
+  const double share = share_of(gauge);
+  const auto differs = [&](const Compared& run) {
+    return !(std::abs(std::log(share_of(run) / share)) < std::log(of_gains.one_span));
+  };
+  const auto as_it_is = [&](std::size_t k) { return (gauge.measured[k] - gauge.model[k]) / share; };
+  if (!(std::abs(std::log(share)) > std::log(of_gains.other_span)) || std::ranges::any_of(runs, differs) ||
+      !(share_left(gauge, share, 0.0, as_it_is) < of_gains.scaled_share))
+    return std::nullopt;
+  const double span_Pa = valve.zero_pressure_Pa + Line(gauge.measured, gauge.model).slope *
+                                                      (valve.span_pressure_Pa - valve.zero_pressure_Pa);
+  place.factor = domain::significant(place.factor / share, digits);
+  return Finding{
+      .quantity = key,
+      .runs = gauge.runs,
+      .message = fmt::format("{} is {:.3g} times what the valve would give: is span_pressure of "
+                             "the rig's valve {:.3g} bar, not {:.3g} bar? Or is a factor of its gauge, or of "
+                             "its heading, left out: columns: {{{}}}?",
+                             key, share, span_Pa / plant::Pa_per_bar,
+                             valve.span_pressure_Pa / plant::Pa_per_bar, line_of(key, place)),
+      .severity = Severity::doubtful};
+}
+
 namespace {
 
 /// Whether all runs are off by that.
@@ -276,34 +312,6 @@ std::optional<double> off_at_beginning(const Compared& gauge) {
 }
 
 }  // namespace
-
-std::optional<Finding> of_the_other_muscle(const domain::Dataset& data, const std::vector<Expected>& expected,
-                                           const domain::ColumnMap& map, const plant::Signal& signal) {
-  const std::string keys[] = {plant::Channel{&signal, 1}.key_in_dataset(),
-                              plant::Channel{&signal, 2}.key_in_dataset()};
-  Finding found{.quantity = keys[0], .message = {}, .severity = Severity::doubtful};
-  double as_said = 0.0, exchanged = 0.0;
-  for (std::size_t i = 0; i < data.runs.size(); ++i) {
-    Compared one, two;
-    for (std::size_t reading = 0; reading < data.runs[i].readings.size(); ++reading)
-      if (const plant::Channel& channel = data.runs[i].readings[reading].channel; channel.signal == &signal)
-        (channel.muscle == 1 ? one : two).add(i, data.runs[i], expected[i], reading);
-    if (one.measured.size() != two.measured.size()) continue;
-    found.runs.push_back(i);
-    for (std::size_t k = 0; k < one.measured.size(); ++k) {
-      as_said += std::pow(one.measured[k] - one.model[k], 2) + std::pow(two.measured[k] - two.model[k], 2);
-      exchanged += std::pow(one.measured[k] - two.model[k], 2) + std::pow(two.measured[k] - one.model[k], 2);
-    }
-  }
-  if (!(exchanged < of_gains.exchanged_share * as_said)) return std::nullopt;
-  ColumnPlace first = map[keys[0]], second = map[keys[1]];
-  std::swap(first.column, second.column);
-  found.message = fmt::format(
-      "with {} and {} exchanged {:.0f} % of the rig's error is left: are they? About columns: {{{}, {}}}",
-      keys[0], keys[1], 100.0 * std::sqrt(exchanged / as_said), line_of(keys[0], first),
-      line_of(keys[1], second));
-  return found;
-}
 
 std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
                                            ColumnPlace place, double accuracy_Pa) {

@@ -63,6 +63,10 @@ std::optional<Finding> other_unit_of_gauge(const Compared& gauge, const std::str
 /// or by a factor: that of a gauge is one for all runs that it reads, or none.
 std::optional<Finding> other_gain(const std::vector<Compared>& runs, const std::string& key,
                                   domain::ColumnPlace place);
+/// or what a wrong span of the valve that fills the muscle would have the rig do, in all runs. `runs`: of
+/// each alone.
+std::optional<Finding> other_span(const std::vector<Compared>& runs, const std::string& key,
+                                  domain::ColumnPlace place, const plant::Valve& valve);
 /// A gauge that reads another constant too much or too little where all runs begin at rest, and comes back
 /// to it. `accuracy_Pa`: rms.
 std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
@@ -71,9 +75,6 @@ std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, co
 /// run alone.
 std::optional<Finding> other_zero_of_load_cell(const std::vector<Compared>& runs, const std::string& key,
                                                domain::ColumnPlace place, double unit_N, double accuracy_N);
-/// Readings of two muscles that are each other's. `map`: with our names where it says none.
-std::optional<Finding> of_the_other_muscle(const domain::Dataset& data, const std::vector<Expected>& expected,
-                                           const domain::ColumnMap& map, const plant::Signal& signal);
 /// Whether a gauge may read so many times what the rig would do.
 bool is_gauge_slope(double slope);
 

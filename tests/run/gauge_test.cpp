@@ -24,6 +24,13 @@ TEST(Gauge, AFactorIsToldOnlyIfAllRunsAgreeOnIt) {
   EXPECT_TRUE(holds(told(0.4, 0.4), "all runs: muscle_pressure is 0.", "is a factor of its gauge"));
   EXPECT_TRUE(lacks(told(0.4, 1.0), "is a factor of its gauge"));
   EXPECT_TRUE(lacks(told(0.25, 0.4), "is a factor of its gauge")) << "a leak may do so";
+  const std::string span = told(0.6, 0.6);
+  EXPECT_TRUE(holds(span, "all runs: muscle_pressure is 0.6 times what the valve would give",
+                    "is span_pressure of the rig's valve 3.", "not 5 bar?",
+                    "{muscle_pressure: {column: p_bar, unit: bar, factor: 1.6"));
+  EXPECT_TRUE(lacks(span, "zero", "load", "contraction"));
+  EXPECT_TRUE(lacks(told(0.6, 0.7), "span_pressure"));
+  EXPECT_TRUE(lacks(told(0.95, 0.95), "span_pressure")) << "gauges do so";
 }
 
 TEST(Gauge, AUnitThatTheHeadingSaysIsDoubtedOnlyWhereAnotherFits) {
