@@ -27,6 +27,7 @@
 #include <sim/input/yaml_file.hpp>
 #include <sim/input/yaml_writer.hpp>
 #include <sim/output/run_files.hpp>
+#include <sim/run/exchanged.hpp>
 #include <sim/run/look.hpp>
 
 namespace mckibben::cli {
@@ -58,7 +59,7 @@ Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& wa
                             [](const Problem& one) { return one.severity == input::Severity::error; }))
       throw input::BadInput(warnings);
   };
-  say(data::implausible(data));
+  say(run::asked_of(data));
   if (std::string why = input::why_unfit(domain::Purpose::judging, data); !why.empty())
     return {
         fmt::format("{} runs read; none simulated", data.runs.size()), {"cannot take it yet: " + why}, ""};

@@ -20,6 +20,7 @@
 #include <sim/input/diagnostics.hpp>
 #include <sim/input/hypothesis_file.hpp>
 #include <sim/input/rigs.hpp>
+#include <sim/run/exchanged.hpp>
 #include <sim/run/look.hpp>
 #include <sim/tasks/tasks.hpp>
 #include <sim/thesis/calibrate.hpp>
@@ -56,7 +57,7 @@ namespace {
 
 /// What can hardly be; throws where it cannot.
 std::vector<data::Finding> asked_of(const domain::Dataset& dataset) {
-  std::vector<data::Finding> findings = data::implausible(dataset);
+  std::vector<data::Finding> findings = run::asked_of(dataset);
   data::raise(dataset, findings);
   return findings;
 }

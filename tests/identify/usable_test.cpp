@@ -9,6 +9,7 @@
 #include <sim/data/finding.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/identify/usable.hpp>
+#include <sim/run/exchanged.hpp>
 
 #include "diagnose/bench.hpp"
 #include "diagnose/joint.hpp"
@@ -122,6 +123,38 @@ TEST(Usable, TensionsOfTheOtherMuscleAreAskedAbout) {
   for (domain::Run& run : data.runs) run.readings[1].values.swap(run.readings[2].values);
   EXPECT_NE(said().find("with tension_1 and tension_2 exchanged"), std::string::npos) << said();
   EXPECT_NE(said().find("tension_1: {column: tension_2_N, unit: N}"), std::string::npos) << said();
+}
+
+// Without gauges the other sign of the angle would say the same.
+TEST(Usable, CommandsOfTheOtherMuscleAreToldByTheGauges) {
+  domain::Dataset data = diagnose::of_a_joint(plant::thesis_pair(), true);
+  const diagnose::Loaded pair{data.rig};
+  data.rows_of_stamps.reset();
+  data.columns["angle"] = {"elbow", "rad"};
+  for (const char* side : {"1", "2"}) {
+    data.columns[std::string("command_") + side] = {std::string("I") + side, "mA"};
+    data.columns[std::string("muscle_pressure_") + side] = {std::string("p") + side, "bar"};
+  }
+  for (domain::Run& run : data.runs) {
+    for (const std::size_t muscle : {1U, 2U}) run.read("muscle_pressure", {}, muscle);
+    const diagnose::Readings readings = diagnose::predict(run, {&pair, 1}).front();
+    run.measured->take("angle") = run.judged().values;
+    for (const std::size_t muscle : {1U, 2U})
+      run.measured->take("muscle_pressure", muscle) = readings.readings[muscle];
+    run.measured->rows.clear();
+    run.readings.clear();
+    run.time_s.clear();
+  }
+  EXPECT_FALSE(run::exchanged_columns(data));
+  for (domain::Run& run : data.runs) {
+    std::vector<double> first = run.measured->given("command", 1);
+    run.measured->give("command", 1) = run.measured->given("command", 2);
+    run.measured->give("command", 2) = std::move(first);
+  }
+  const auto found = run::exchanged_columns(data);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(holds(found->message, "command_1 and command_2 look exchanged",
+                    "{command_1: {column: I2, unit: mA}, command_2: {column: I1, unit: mA}}"));
 }
 
 }  // namespace

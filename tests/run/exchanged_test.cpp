@@ -1,0 +1,71 @@
+// Columns of one muscle that are each other's are told by simulating with each pair exchanged.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <sim/run/exchanged.hpp>
+
+#include "measured_on.hpp"
+#include "says.hpp"
+
+namespace mckibben::run {
+namespace {
+
+/// The sound data with stamps, and what one of each column's unit is in ours.
+domain::Dataset stamped() {
+  domain::Dataset data = sound();
+  data.own_clock = true;
+  data.columns["command"] = {"U", "mA"};
+  data.columns["contraction"] = {"x", "mm"};
+  data.columns["muscle_pressure"] = {"p", "bar"};
+  for (domain::Run& run : data.runs) {
+    run.ratio_per_unit = 1e-3 / data.rig.muscle.rest_length_m;
+    domain::Measurement measured;
+    for (std::size_t k = 0; k < run.rows(); ++k)
+      measured.time_s.push_back(static_cast<double>(k) * data.rig.tick_s);
+    measured.give("command") = run.current_mA;
+    measured.take("contraction") = run.values("contraction");
+    measured.take("muscle_pressure") = run.values("muscle_pressure");
+    run.measured = std::move(measured);
+    run.readings.clear();
+    run.current_mA.clear();
+  }
+  return data;
+}
+
+std::string told(std::size_t one, std::size_t other) {
+  domain::Dataset data = stamped();
+  for (domain::Run& run : data.runs) {
+    const double size[] = {1.0, run.ratio_per_unit, plant::Pa_per_bar};
+    auto& columns = run.measured->columns;
+    for (std::size_t k = 0; k < run.measured->time_s.size(); ++k) {
+      double &a = columns[one].values[k], &b = columns[other].values[k];
+      a /= size[one];
+      b /= size[other];
+      std::swap(a, b);
+      a *= size[one];
+      b *= size[other];
+    }
+  }
+  const auto found = exchanged_columns(data);
+  return found ? found->message : "";
+}
+
+TEST(Exchanged, EveryPairOfColumnsIsTold) {
+  EXPECT_TRUE(
+      holds(told(0, 2), "command and muscle_pressure look exchanged",
+            "write columns: {command: {column: p, unit: mA}, muscle_pressure: {column: U, unit: bar}}"));
+  EXPECT_TRUE(holds(told(1, 2), "contraction and muscle_pressure look exchanged"));
+  EXPECT_TRUE(holds(told(0, 1), "command and contraction look exchanged"));
+}
+
+TEST(Exchanged, ColumnsThatAreRightOrWrongOtherwiseAreNot) {
+  domain::Dataset data = stamped();
+  EXPECT_FALSE(exchanged_columns(data));
+  for (domain::Run& run : data.runs)
+    for (double& ratio : run.measured->take("contraction")) ratio *= -10.0;
+  EXPECT_FALSE(exchanged_columns(data));
+}
+
+}  // namespace
+}  // namespace mckibben::run
