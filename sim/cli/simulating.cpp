@@ -193,7 +193,8 @@ int replay_dataset(const ReplayOptions& options) {
   warn(first);
   const auto runs =
       with_progress(name, [&](const auto& hook) { return run::replay(dataset, options.threads, hook); });
-  const auto warnings = tasks::warnings_of(dataset, runs);
+  bool can_be_judged = false;
+  const auto warnings = tasks::warnings_of(dataset, runs, &can_be_judged);
   auto others = warnings;
   std::erase_if(others, [&](const auto& one) { return std::ranges::find(first, one) != first.end(); });
   warn(others);
@@ -208,7 +209,7 @@ int replay_dataset(const ReplayOptions& options) {
   if (const std::string picture = report::tracking_svg(dataset, runs); !picture.empty())
     job.write("tracking.svg", picture);
   return job.finish({document, table}, any_failed(runs) ? failure : done,
-                    options.rig.empty() ? "diagnose " + options.dataset : "");
+                    options.rig.empty() && can_be_judged ? "diagnose " + options.dataset : "");
 }
 
 }  // namespace

@@ -324,9 +324,9 @@ MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_know
   for (const char* key : {"command", "contraction", "muscle_pressure", "force"}) {
     const std::string_view quantity = key;
     const auto found = candidates(quantity);
-    const bool may_lack = (quantity == "command" && has_pressure) ||
-                          (quantity == "contraction" && has_force) || quantity == "muscle_pressure" ||
-                          quantity == "force";
+    // Without a length, given or read, nothing can be judged.
+    const bool may_lack =
+        (quantity == "command" && has_pressure) || quantity == "muscle_pressure" || quantity == "force";
     if (!found.empty() || !may_lack)
       map.columns.push_back(guess_of(domain::quantity_of(quantity), found, others));
     if (!found.empty()) own_clock(table, time, map.columns.back());

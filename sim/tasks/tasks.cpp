@@ -76,16 +76,17 @@ std::vector<std::string> asked_first(const domain::Dataset& dataset) {
 }
 
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
-                                     const std::vector<run::ReplayedRun>& runs) {
+                                     const std::vector<run::ReplayedRun>& runs, bool* judged) {
   std::vector<std::string> warnings = asked_first(dataset);
-  const bool looks =
-      dataset.own_clock && !run::interrupted() && input::why_unfit(domain::Purpose::judging, dataset).empty();
+  const bool fit = input::why_unfit(domain::Purpose::judging, dataset).empty();
+  const bool looks = dataset.own_clock && !run::interrupted() && fit;
   std::vector<data::Finding> looked;
   if (looks)
     looked = run::look(dataset).findings;
   else if (!dataset.own_clock)
     looked = data::examine(dataset, run::expected_of(dataset, runs)).findings;
   data::raise(dataset, looked);
+  if (judged != nullptr) *judged = fit && std::ranges::none_of(looked, data::is_error);
   if (!looks) {
     run::add_not_at_rest(dataset, runs, looked);
     run::add_far_off(dataset, runs, looked);

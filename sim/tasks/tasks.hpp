@@ -32,9 +32,9 @@ void replace_rig(domain::Dataset& dataset, const std::string& called, plant::Rig
 std::vector<std::string> asked_first(const domain::Dataset& dataset);
 
 /// That, what looks wrong in the data, and what is doubtful in their simulation. Throws data::UnfitData where
-/// a comparison with them would mean nothing.
+/// a comparison with them would mean nothing. `judged`: whether a diagnosis takes them.
 std::vector<std::string> warnings_of(const domain::Dataset& dataset,
-                                     const std::vector<run::ReplayedRun>& runs);
+                                     const std::vector<run::ReplayedRun>& runs, bool* judged = nullptr);
 
 // A calibration.
 

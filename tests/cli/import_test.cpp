@@ -135,6 +135,22 @@ TEST_F(Import, ARunOfNoTimeIsRefusedByEveryVerb) {
   }
 }
 
+TEST_F(Import, WhatADiagnosisRefusesIsNotNext) {
+  ASSERT_EQ(shell("awk -F, 'NR == 1 {print \"t,U,F\"} NR > 1 {print $1 \",\" $2 \",49\"}' d/m1_s.csv > f.csv",
+                  scratch_)
+                .status,
+            0);
+  write_text(
+      scratch_ / "dataset.yaml",
+      "schema: mckibben-dataset/1\nrig: rig.yaml\nstart: settled\ncolumns: {time: {column: t, unit: s}, "
+      "command: {column: U, unit: mA}, force: {column: F, unit: N}}\n"
+      "runs: [{id: r, file: f.csv, load: 5 kg}]\n");
+  EXPECT_TRUE(holds(mckibben("check dataset.yaml", scratch_).out, "contraction is not read"));
+  const Said said = mckibben("replay dataset.yaml", scratch_);
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_TRUE(lacks(said.err, "next: ")) << "diagnose refuses it";
+}
+
 TEST_F(Import, TakesARigThatIsKnownAndLeavesTablesAlone) {
   const Said said = mckibben("import bench/load_5kg.csv --rig rig.yaml --out sub/mine --json", scratch_);
   ASSERT_EQ(said.status, 0) << said.err;

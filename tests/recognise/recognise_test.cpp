@@ -44,6 +44,13 @@ TEST(Headings, WordsAndUnitsTell) {
                           {"Muskeldruck [bar]", "", "muscle_pressure", "bar"},
                           {"Versorgungsdruck [bar]", "", "", "bar"},
                           {"Seilzugweg [mm]", "", "contraction", "mm"},
+                          {"drawwire (V)", "", "contraction", "V"},
+                          {"draw-wire sensor [V]", "", "contraction", "V"},
+                          {"string potentiometer [V]", "", "contraction", "V"},
+                          {"Seilzugsensor [V]", "", "contraction", "V"},
+                          {"Wegaufnehmer [V]", "", "contraction", "V"},
+                          {"Linearpoti [V]", "", "contraction", "V"},
+                          {"wire tension [N]", "", "force", "N"},
                           {"Offset [V]", "", "", "V"},
                           {"AI3 [N]", "", "force", "N"},
                           {"p_m", "", "muscle_pressure", ""},
@@ -248,6 +255,17 @@ TEST_F(Recognise, WhatNoHeadingNamesHasCandidates) {
       recognise({run("a.csv", "KP 0.72\nTime,Channel A,Channel B\n(ms),(V),(V)\n\n", row)}, true);
   EXPECT_TRUE(holds(found.maps[0].find("contraction")->column.reason, "Channel A (0 to 1 V)", "Channel B"));
   EXPECT_TRUE(holds(found.maps[0].remarks.at(0), "KP 0.72"));
+}
+
+TEST_F(Recognise, WithoutALengthNothingIsJudgedAndItIsAsked) {
+  const auto row = [](int k) {
+    return fmt::format("{},{},{},{},50", 0.012 * k, 9 * drive(k), drive(k), 5 * drive(k));
+  };
+  const Recognised found =
+      recognise({run("a_5kg.csv", "t [s],U_set [V],KTC [V],p [bar],F [N]\n", row)}, true);
+  ASSERT_NE(found.maps[0].find("contraction"), nullptr) << "a force alone is no reason to go on without";
+  EXPECT_TRUE(found.maps[0].find("contraction")->column.open());
+  EXPECT_TRUE(holds(found.maps[0].find("contraction")->column.reason, "perhaps one of: KTC [V]"));
 }
 
 TEST_F(Recognise, ReadingsBetweenThoseOfThePressureHaveASign) {
