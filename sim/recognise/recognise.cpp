@@ -255,8 +255,8 @@ class Recogniser {
     const std::string unit = contraction == nullptr ? "" : contraction->unit.value;
     if (unit == "count" || (!unit.empty() && input::unit_problem(unit, "rad").empty()))
       set("joint.wheel_radius", left_open("of the wheel on which the cord lies"));
-    if (contraction != nullptr && contraction->zero)
-      set("joint.reading_offset",
+    if (contraction != nullptr && contraction->zero)  // a length that is given has no sensor
+      set(contraction->input ? "joint.length_offset" : "joint.reading_offset",
           {"0 mm ± 1 mm", "the zero of " + contraction->column.value +
                               " may be off, and diagnose may move it by so much; less, if you know it"});
     if (unit == "count") {

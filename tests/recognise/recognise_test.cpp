@@ -170,6 +170,8 @@ TEST_F(Recognise, LengthsThatABenchHolds) {
   EXPECT_EQ(length.factor->value, "-1");
   EXPECT_TRUE(length.zero->open());
   EXPECT_EQ(setting(found.rig, "mechanics")->told.value, "{kind: held_length}");
+  EXPECT_NE(setting(found.rig, "joint.length_offset"), nullptr) << "the zero of the bench";
+  EXPECT_EQ(setting(found.rig, "joint.reading_offset"), nullptr) << "nothing reads it";
   EXPECT_EQ(setting(found.rig, "tick"), nullptr);
   EXPECT_EQ(found.maps[0].rows->key, "settled");
   EXPECT_EQ(found.open(), 5u) << "muscle's three, its length's zero, what a point took";
