@@ -57,13 +57,22 @@ std::string place_of(const ColumnGuess& guess) {
   return text + "}";
 }
 
-std::string columns_yaml(const MapGuess& map, const std::string& indent) {
+/// Which of a map's columns are written.
+enum class Which { all, of_each, others };
+
+std::string columns_yaml(const Recognised& found, const MapGuess& map, Which which,
+                         const std::string& indent) {
+  const auto wanted = [&](bool of_each) {
+    return which == Which::all || of_each == (which == Which::of_each);
+  };
   std::string text;
   for (const ColumnGuess& guess : map.columns)
-    text += fmt::format("{0}{1}\n{0}{2}\n", indent, as_comment(reasons_of(guess)), place_of(guess));
-  if (map.rows)
+    if (wanted(found.each_has(guess.quantity->key)))
+      text += fmt::format("{0}{1}\n{0}{2}\n", indent, as_comment(reasons_of(guess)), place_of(guess));
+  if (map.rows && wanted(found.each_has_rows()))
     text += fmt::format("{0}{1}\n{0}{2}: {3}\n", indent, as_comment(map.rows->told.reason), map.rows->key,
                         map.rows->told.value);
+  if (which == Which::others) return text;
   for (const std::string& remark : map.remarks) text += fmt::format("{}{}\n", indent, as_comment(remark));
   for (const Told& each : map.ignored)
     text +=
@@ -80,9 +89,11 @@ std::string run_yaml(const Recognised& found, std::size_t i, const std::filesyst
   text += fmt::format("  - id: {}\n    file: {}\n", domain::yaml_scalar(run.id), domain::yaml_scalar(file));
   for (const std::string& part : found.tables[i].part) text += "    " + part + "\n";
   if (run.load) text += fmt::format("    load: {}\n", run.load->value);
-  if (run.map > 0)
-    text +=
-        "    # its columns have other names\n    columns:\n" + columns_yaml(found.maps[run.map], "      ");
+  const std::string own =
+      columns_yaml(found, found.maps[run.map], run.map > 0 ? Which::all : Which::others, "      ");
+  if (!own.empty())
+    text += fmt::format("    # {}\n    columns:\n{}",
+                        run.map > 0 ? "its columns have other names" : "not all runs have these", own);
   return text;
 }
 
@@ -100,7 +111,7 @@ std::string dataset_yaml(const Recognised& found, const std::filesystem::path& f
       how_to_go_on, input::dataset_schema, domain::yaml_scalar(rig));
   for (const Setting& each : found.dataset)
     text += fmt::format("\n{}\n{}: {}\n", as_comment(each.told.reason), each.key, each.told.value);
-  text += "\ncolumns:\n" + columns_yaml(found.maps.front(), "  ") + "\nruns:\n";
+  text += "\ncolumns:\n" + columns_yaml(found, found.maps.front(), Which::of_each, "  ") + "\nruns:\n";
   for (std::size_t i = 0; i < found.runs.size(); ++i) text += run_yaml(found, i, folder);
   return text;
 }

@@ -16,32 +16,6 @@
 
 namespace mckibben::recognise {
 
-const ColumnGuess* MapGuess::find(std::string_view key) const {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [&](const ColumnGuess& each) { return each.quantity->key == key; });
-  return found == columns.end() ? nullptr : &*found;
-}
-
-std::size_t Recognised::open() const {
-  std::size_t count = 0;
-  const auto add = [&](const Told& told) { count += told.open() ? 1 : 0; };
-  for (const MapGuess& map : maps)
-    for (const ColumnGuess& guess : map.columns) {
-      add(guess.column);
-      add(guess.unit);
-      if (guess.zero) add(*guess.zero);
-      if (guess.factor) add(*guess.factor);
-      if (guess.time) add(*guess.time);
-    }
-  for (const MapGuess& map : maps)
-    if (map.rows) add(map.rows->told);
-  for (const RunGuess& run : runs)
-    if (run.load) add(*run.load);
-  for (const Setting& each : dataset) add(each.told);
-  for (const Setting& each : rig) add(each.told);
-  return count;
-}
-
 namespace {
 
 constexpr double even_s = 1e-6, even_ratio = 2e-7;  // as readers have it of ticks

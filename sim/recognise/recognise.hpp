@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <plant/valve.hpp>
@@ -65,6 +66,9 @@ struct Recognised {
   std::vector<Setting> dataset;      ///< its keys besides rig, columns and runs
   std::vector<Setting> rig;
 
+  /// Whether the data set may say it for all runs: a run takes over what its own columns do not name.
+  bool each_has(std::string_view key) const;
+  bool each_has_rows() const;
   /// How many values are left to be filled in.
   std::size_t open() const;
 };

@@ -135,6 +135,43 @@ TEST_F(Import, ARunOfNoTimeIsRefusedByEveryVerb) {
   }
 }
 
+/// Values FILL_IN in what import wrote, without comments.
+std::size_t left_in(const std::filesystem::path& folder) {
+  std::size_t count = 0;
+  for (const char* name : {"dataset.yaml", "rig.yaml"}) {
+    if (!std::filesystem::exists(folder / name)) continue;
+    const std::string text = std::regex_replace(read_text(folder / name), std::regex("#[^\n]*"), "");
+    const std::regex value("FILL_IN");
+    count += static_cast<std::size_t>(
+        std::distance(std::sregex_iterator(text.begin(), text.end(), value), std::sregex_iterator()));
+  }
+  return count;
+}
+
+TEST_F(Import, RunsTakeOverNothingThatTheirTableLacks) {
+  ASSERT_EQ(
+      shell("mkdir mixed && awk -F, 'NR == 1 {print \"Zeit [s],Soll [mA],Laser [V],Kraft [N]\"} NR > 1 "
+            "{print $1 \",\" $2 \",\" $3 \",49\"}' d/m1_s.csv > mixed/a_5kg.csv && "
+            "cp mixed/a_5kg.csv mixed/b_6kg.csv && "
+            "(printf 'LabVIEW Measurement\\t\\nSeparator\\tTab\\nX_Columns\\tOne\\n***End_of_Header***\\t\\n'"
+            "'Channels\\t2\\t\\t\\nX0\\t0\\t0\\t\\nDelta_X\\t0.012\\t0.012\\t\\n***End_of_Header***\\t\\t\\t"
+            "\\nX_Value\\tp [bar]\\twire [V]\\tComment\\n'; awk -F, 'NR > 1 {print $1 \"\\t\" $2 / 4 \"\\t\" "
+            "$3}' d/m1_s.csv) > mixed/c_7kg.lvm && cp mixed/c_7kg.lvm mixed/d_8kg.lvm",
+            scratch_)
+          .status,
+      0);
+  const Said said = mckibben("import mixed --rig rig.yaml --out mine --json", scratch_);
+  ASSERT_EQ(said.status, 0) << said.err;
+  const std::string dataset = read_text(scratch_ / "mine/dataset.yaml");
+  const std::size_t runs = dataset.find("runs:");
+  EXPECT_TRUE(lacks(dataset.substr(0, runs), "Zeit", "Soll", "Kraft")) << "the .lvm has none of them";
+  EXPECT_TRUE(holds(dataset.substr(0, runs), "Laser"));
+  EXPECT_EQ(input::Json::parse(said.out).at("open"), left_in(scratch_ / "mine")) << dataset;
+  EXPECT_EQ(left_in(scratch_ / "mine"), 5U) << "the laser's unit; each wire's, and zero of its p";
+  write_filled(scratch_ / "mine/dataset.yaml", {{"unit", "1"}, {"zero", "0"}});
+  EXPECT_TRUE(lacks(mckibben("check mine", scratch_).err, "is missing", "say as: ignored"));
+}
+
 TEST_F(Import, WhatADiagnosisRefusesIsNotNext) {
   ASSERT_EQ(shell("awk -F, 'NR == 1 {print \"t,U,F\"} NR > 1 {print $1 \",\" $2 \",49\"}' d/m1_s.csv > f.csv",
                   scratch_)
