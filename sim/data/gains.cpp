@@ -12,6 +12,7 @@
 #include <sim/data/ranges.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
+#include <sim/data/weighed.hpp>
 #include <sim/domain/number.hpp>
 
 namespace mckibben::data {
@@ -77,6 +78,24 @@ std::optional<Finding> other_zero(const Compared& contraction, ColumnPlace place
       .severity = Severity::doubtful};
 }
 
+namespace {
+
+/// A load that is written ten times too large seems to be too heavy, and its run to begin above the stop:
+/// that is asked of the load.
+void leave_out_misplaced(const domain::Dataset& data, const std::vector<Expected>& expected,
+                         std::vector<std::size_t>& runs, std::vector<double>& offs) {
+  if (runs.empty()) return;
+  const std::vector<Weighed> list = weigh(data, expected, true);
+  for (const auto& [one, factor] : misplaced_points_in(list))
+    if (const auto at = std::ranges::find(runs, one.run);
+        factor < 1.0 && at != runs.end() && !all_are_off(list, one)) {
+      offs.erase(offs.begin() + (at - runs.begin()));
+      runs.erase(at);
+    }
+}
+
+}  // namespace
+
 std::optional<Finding> other_zero_at_rest(const domain::Dataset& data, const std::vector<Expected>& expected,
                                           ColumnPlace place) {
   if (data.recorded.start != domain::Start::settled || data.rig.has_angle()) return std::nullopt;
@@ -94,6 +113,7 @@ std::optional<Finding> other_zero_at_rest(const domain::Dataset& data, const std
     runs.push_back(i);
     offs.push_back(off);
   }
+  leave_out_misplaced(data, expected, runs, offs);
   if (runs.empty()) return std::nullopt;
   const double off = upper_median(offs);
   place.zero =

@@ -1,19 +1,20 @@
-// See the header. With each effect of the catalogue and with muscles a third stronger or weaker, what runs
-// seem to carry is off by a factor common to all, and by less than half of the difference of their loads.
+// Labels against what runs seem to carry; see columns.hpp. With each effect of the catalogue and with muscles
+// a third stronger or weaker, that is off by a factor common to all, and by less than half of the difference
+// of their loads.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include <plant/geometry.hpp>
+#include <plant/instruments.hpp>
 #include <sim/data/columns.hpp>
 #include <sim/data/gains.hpp>
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
+#include <sim/data/weighed.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/domain/rig_number.hpp>
 
@@ -24,67 +25,8 @@ using Series = std::vector<double>;
 
 constexpr const LoadThresholds& of_loads = thresholds.load;
 
-struct Weighed {
-  std::size_t run;
-  double label_kg, seems_kg;
-};
-
-/// Whether the reading stands still round row `k` though the simulated load moves.
-bool stands_still(const Series& measured, const Series& simulated, std::size_t k) {
-  const std::size_t end = std::min({k + of_loads.still_rows, measured.size(), simulated.size()});
-  const auto of = [&](const Series& series) {
-    return std::span(series).subspan(k - std::min(k, of_loads.still_rows),
-                                     end - k + std::min(k, of_loads.still_rows));
-  };
-  if (!std::ranges::all_of(of(measured), [&](double m) { return m == measured[k]; })) return false;
-  return range(of(simulated)) > of_loads.moving;
-}
-
-/// What the braid carries beside a return spring at what was measured, in the middle of what friction makes
-/// of it. Where the simulated load hangs as well, by how much more it carries than that one: what the
-/// simulation is off by in friction and inertia, the measurement is too.
-std::optional<Weighed> weigh(const plant::Rig& rig, const plant::Braid& braid, std::size_t index,
-                             const domain::Run& run, const Expected& expected) {
-  const auto carried_kg = [&](double contraction_ratio, std::size_t k) {
-    const double returned_N = rig.joint.spring().pull(braid.rest_length_m() * contraction_ratio);
-    return (braid.force_N(contraction_ratio, expected.pressure_Pa[k]) - returned_N) / plant::gravity_m_per_s2;
-  };
-  const Series& read = run.judged().values;
-  if (range(read) == 0.0) return std::nullopt;  // a dead reading weighs nothing
-  Series plain_kg, compared_kg;
-  for (std::size_t k = 0; k < std::min(read.size(), expected.pressure_Pa.size()); ++k) {
-    const double measured = read[k], simulated = expected.judged()[k];
-    if (measured < of_loads.lifted || !braid.in_domain(measured)) continue;
-    if (stands_still(read, expected.judged(), k)) continue;
-    plain_kg.push_back(carried_kg(measured, k));
-    if (simulated > of_loads.lifted)
-      compared_kg.push_back(run.load_kg + plain_kg.back() - carried_kg(simulated, k));
-  }
-  if (plain_kg.size() < of_loads.least_rows) return std::nullopt;
-  const bool both = static_cast<double>(compared_kg.size()) >
-                    of_loads.compared_share * static_cast<double>(plain_kg.size());
-  return Weighed{index, run.load_kg, upper_median(std::move(both ? compared_kg : plain_kg))};
-}
-
 Finding doubt(std::vector<std::size_t> runs, std::string message) {
   return {"load", std::move(runs), std::move(message), Severity::doubtful};
-}
-
-/// Runs with a load, or those without.
-std::vector<Weighed> weigh(const domain::Dataset& data, const std::vector<Expected>& expected, bool loaded) {
-  const plant::Braid braid(data.rig.muscle);
-  std::vector<Weighed> list;
-  if (data.rig.has_angle()) return list;  // what hangs on a lever pulls by its angle
-  for (std::size_t i = 0; i < data.runs.size(); ++i)
-    if ((data.runs[i].load_kg > 0.0) == loaded)
-      if (const auto one = weigh(data.rig, braid, i, data.runs[i], expected[i])) list.push_back(*one);
-  return list;
-}
-
-double common_ratio(const std::vector<Weighed>& list) {
-  Series ratios;
-  for (const Weighed& one : list) ratios.push_back(one.seems_kg / one.label_kg);
-  return upper_median(std::move(ratios));
 }
 
 std::vector<std::size_t> runs_of(const std::vector<Weighed>& list) {
@@ -92,12 +34,6 @@ std::vector<std::size_t> runs_of(const std::vector<Weighed>& list) {
   runs.reserve(list.size());
   for (const Weighed& one : list) runs.push_back(one.run);
   return runs;
-}
-
-/// How far off what runs have in common, as a logarithm; infinite where one is no load.
-double far_off(const Weighed& one, double scale) {
-  return one.seems_kg > 0.0 && scale > 0.0 ? std::abs(std::log(one.seems_kg / one.label_kg / scale))
-                                           : std::numeric_limits<double>::infinity();
 }
 
 /// How well labels explain what runs seem to weigh.
@@ -162,40 +98,24 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
       .severity = Severity::doubtful};  // of no load: a diagnosis would estimate them all
 }
 
-/// Whether the loads of all other runs are off as well, by half as much or more: a zero elsewhere does that,
-/// or another muscle. False where there are no others.
-bool all_are_off(const std::vector<Weighed>& list, const Weighed& one) {
-  constexpr double as_well = 0.5;
-  const auto off_kg = [](const Weighed& each) { return each.seems_kg - each.label_kg; };
-  const auto is_other = [&](const Weighed& each) { return each.label_kg != one.label_kg; };
-  const auto agrees = [&](const Weighed& each) {
-    return !is_other(each) || off_kg(each) / off_kg(one) > as_well;
-  };
-  return std::ranges::any_of(list, is_other) && std::ranges::all_of(list, agrees);
-}
-
-/// Single loads that are a tenth or a thousandth of what hung, or ten or a thousand times that, beside
-/// others that are right. What all runs are off by alike is no misplaced point.
+/// Single loads that are a tenth or a thousandth of what hung, or ten or a thousand times that.
 std::optional<Finding> misplaced_points(const domain::Dataset& data, const std::vector<Weighed>& list) {
-  const double scale = common_ratio(list);
   Finding found = doubt({}, "");
-  for (const Weighed& one : list)
-    for (const double factor : {10.0, 0.1, 1e3, 1e-3}) {
-      if (!(far_off(one, scale * factor) < std::log(of_loads.sure_tenth))) continue;
-      if (all_are_off(list, one))
-        return doubt(
-            runs_of(list),
-            fmt::format("{} ({} kg) moves like {:.3g} kg, and the loads of all other runs seem {} than "
-                        "written, too: is the zero of contraction what it reads at rest length, and is it "
-                        "this muscle?",
-                        data.runs[one.run].id, domain::write_kg(one.label_kg), one.seems_kg,
-                        one.seems_kg > one.label_kg ? "heavier" : "lighter"));
-      found.runs.push_back(one.run);
-      found.message +=
-          fmt::format("{}{} ({} kg) moves like {:.3g} kg: write load: {:.6g} kg",
-                      found.message.empty() ? "is a point misplaced? " : "; ", data.runs[one.run].id,
-                      domain::write_kg(one.label_kg), one.seems_kg, factor * one.label_kg);
-    }
+  for (const auto& [one, factor] : misplaced_points_in(list)) {
+    if (all_are_off(list, one))
+      return doubt(
+          runs_of(list),
+          fmt::format("{} ({} kg) moves like {:.3g} kg, and the loads of all other runs seem {} than "
+                      "written, too: is the zero of contraction what it reads at rest length, and "
+                      "is it this muscle?",
+                      data.runs[one.run].id, domain::write_kg(one.label_kg), one.seems_kg,
+                      one.seems_kg > one.label_kg ? "heavier" : "lighter"));
+    found.runs.push_back(one.run);
+    found.message +=
+        fmt::format("{}{} ({} kg) moves like {:.3g} kg: write load: {:.6g} kg",
+                    found.message.empty() ? "is a point misplaced? " : "; ", data.runs[one.run].id,
+                    domain::write_kg(one.label_kg), one.seems_kg, factor * one.label_kg);
+  }
   if (found.runs.empty()) return std::nullopt;
   return found;
 }
