@@ -64,7 +64,7 @@ std::optional<Finding> other_unit(const std::vector<Weighed>& list) {
        "N, not kg: write the mass, N / 9.81"},
       {domain::pound_kg, of_loads.near_pounds, of_loads.sure_pounds, "pounds, not kg: write lb"},
       {1.0 / domain::pound_kg, of_loads.near_kg_as_pounds, 1.0, "kg that are written in lb: write kg",
-       of_loads.near_kg_as_pounds},
+       of_loads.agree_on_pounds},
       {10.0, of_loads.near_grams, of_loads.sure_tenth,
        "a tenth of what hung (a digit missing, a point misplaced)"}};
   const double ratio = common_ratio(list);

@@ -81,8 +81,9 @@ struct LoadThresholds {
   double visible = 0.2;        ///< of a usual load: effects without a load look like less
   double near_grams = 2.0;     ///< factors, round kg written in g, N and pounds; a muscle of half or twice
   double near_newtons = 1.25;  ///< the force comes near to pounds, none to the others
-  double near_pounds = 1.2, sure_pounds = 1.08, near_kg_as_pounds = 1.1;
-  double sure_tenth = 1.4;  ///< a tenth is surely one within this factor
+  double near_pounds = 1.2, sure_pounds = 1.08, near_kg_as_pounds = 1.2;
+  double agree_on_pounds = 1.3;  ///< where half of what hung is simulated, friction weighs unevenly
+  double sure_tenth = 1.4;       ///< a tenth is surely one within this factor
 };
 
 /// Single readings, and runs by themselves. Counts are the encoder's.
