@@ -56,16 +56,17 @@ std::optional<Told> zero_told(const ColumnGuess& contraction, const ColumnGuess&
     return std::nullopt;
   if (std::abs(found.at_least_drive) < least_zero_share * span) return std::nullopt;
   const double step = std::pow(10.0, std::floor(std::log10(digits_of_range * span)));
+  const std::string lowest =
+      fmt::format("{:.4g}{}", lowest_drive, drive.unit.open() ? "" : " " + drive.unit.value);
   const auto rounded = [&](double value) { return fmt::format("{:.12g}", std::round(value / step) * step); };
   if (found.scatter > settled_share * span)
-    return left_open(fmt::format(
-        "what it reads at the muscle's rest length; where {} is lowest, {:.4g}, it {} by {:.4g} {}; "
-        "perhaps {}, the end of its readings",
-        drive.column.value, lowest_drive,
-        alone > settled_share * span ? "still moves" : "differs between the tables, as loads do,",
-        found.scatter, unit, rounded(at_rest)));
-  const std::string reason =
-      fmt::format("its median where {} is lowest, {:.4g}", drive.column.value, lowest_drive);
+    return left_open(
+        fmt::format("what it reads at the muscle's rest length; where {} is lowest, {}, it {} by {:.4g} {}; "
+                    "perhaps {}, the end of its readings",
+                    drive.column.value, lowest,
+                    alone > settled_share * span ? "still moves" : "differs between the tables, as loads do,",
+                    found.scatter, unit, rounded(at_rest)));
+  const std::string reason = fmt::format("its median where {} is lowest, {}", drive.column.value, lowest);
   if (empties)
     return Told{.value = rounded(found.at_least_drive),
                 .reason = reason + ": no pressure is left in the muscle there",

@@ -108,6 +108,7 @@ TEST_F(Recognise, ALaserThatFallsAndARegulatorInVolts) {
   EXPECT_EQ(map.find("command")->column.value, "Soll");
   EXPECT_EQ(map.find("contraction")->factor->value, "-1");
   EXPECT_NEAR(std::stod(map.find("contraction")->zero->value), 412.5, 0.6) << "where the command is lowest";
+  EXPECT_TRUE(holds(map.find("contraction")->zero->reason, "where Soll is lowest, 0 V"));
   EXPECT_FALSE(map.find("muscle_pressure")->input);
   EXPECT_EQ(found.runs[0].load->value, "5 kg");
   EXPECT_EQ(found.runs[1].load->value, "7.5 kg");
