@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlopt.hpp>
@@ -70,6 +71,49 @@ void descend(nlopt::opt& simplex, std::vector<double> point, Search& search) {
   }
 }
 
+/// From the gains that it has.
+Tuned found_from(Search& search, const TuningOptions& options) {
+  const auto logarithms = [&](const Gains& gains) {
+    std::vector<double> values;
+    for (double Gains::*gain : search.open) values.push_back(std::log(gains.*gain));
+    return values;
+  };
+  nlopt::opt simplex(nlopt::LN_NELDERMEAD, static_cast<unsigned>(search.open.size()));
+  simplex.set_min_objective(objective, &search);
+  simplex.set_lower_bounds(logarithms(options.lowest));
+  simplex.set_upper_bounds(logarithms(options.highest));
+  simplex.set_initial_step(std::log(2.0));
+  simplex.set_xtol_abs(options.tolerance);
+  // A simplex can collapse on the rough cost of a counted position; a fresh one at the best point goes on.
+  double cost_before = 0.0;
+  auto point = logarithms(search.gains);
+  do {
+    cost_before = search.best.cost;
+    simplex.set_maxeval(options.evaluations - search.best.evaluations);
+    descend(simplex, point, search);
+    point = search.best_point;
+  } while (search.best.cost < (1.0 - options.tolerance) * cost_before &&
+           search.best.evaluations < options.evaluations);
+  return search.best;
+}
+
+/// The same with half the proportional gain, and half of that, for as long as it costs less: gains that make
+/// another rig swing lead a simplex to the best of swings. Where it costs more at once it is not worse.
+bool begins_lower(Search& search, double start_cost, const TuningOptions& options) {
+  if (search.open.front() != &Gains::proportional_mA) return false;
+  Gains lower = search.gains;
+  for (double least = start_cost; (lower.proportional_mA *= 0.5) > options.lowest.proportional_mA;) {
+    const Gains before = std::exchange(search.gains, lower);
+    if (const double cost = search.evaluate(); cost < least) {
+      least = cost;
+      continue;
+    }
+    search.gains = before;
+    break;
+  }
+  return search.gains.proportional_mA < options.start.proportional_mA;
+}
+
 }  // namespace
 
 TuningOptions TuningOptions::for_span(double span_mA) {
@@ -92,35 +136,22 @@ Tuned tune(const std::function<double(const Gains&)>& cost, const GivenGains& gi
   take(given.integral_time_s, &Gains::integral_time_s);
   take(given.derivative_time_s, &Gains::derivative_time_s);
 
+  Tuned best;
   if (search.open.empty()) {
     search.evaluate();
+    best = search.best;
   } else {
-    const auto logarithms = [&](const Gains& gains) {
-      std::vector<double> values;
-      for (double Gains::*gain : search.open) values.push_back(std::log(gains.*gain));
-      return values;
-    };
-    nlopt::opt simplex(nlopt::LN_NELDERMEAD, static_cast<unsigned>(search.open.size()));
-    simplex.set_min_objective(objective, &search);
-    simplex.set_lower_bounds(logarithms(options.lowest));
-    simplex.set_upper_bounds(logarithms(options.highest));
-    simplex.set_initial_step(std::log(2.0));
-    simplex.set_xtol_abs(options.tolerance);
-    // A simplex can collapse on the rough cost of a counted position; a fresh one at the best point goes on.
-    double cost_before = 0.0;
-    auto point = logarithms(options.start);
-    do {
-      cost_before = search.best.cost;
-      simplex.set_maxeval(options.evaluations - search.best.evaluations);
-      descend(simplex, point, search);
-      point = search.best_point;
-    } while (search.best.cost < (1.0 - options.tolerance) * cost_before &&
-             search.best.evaluations < options.evaluations);
+    Search lower = search;
+    best = found_from(search, options);
+    const bool begins = begins_lower(lower, best.start_cost.value_or(very_bad), options);
+    const Tuned other = begins ? found_from(lower, options) : lower.best;
+    if (other.cost < best.cost) best.cost = other.cost, best.gains = other.gains;
+    best.evaluations += other.evaluations;
   }
-  if (!std::isfinite(search.best.cost))
+  if (!std::isfinite(best.cost))
     throw std::runtime_error("tuning: no gains gave a run that could be simulated; the last one: " +
                              search.last_failure);
-  return search.best;
+  return best;
 }
 
 }  // namespace mckibben::run

@@ -1,5 +1,6 @@
 // Finds the PID gains that a scenario leaves open: Nelder-Mead (Nelder & Mead 1965, from NLopt) on the
 // logarithms of the gains, from a fixed start and without chance, so that the same cost gives the same gains.
+// Where less gain than the start's costs less, a second search begins there.
 #pragma once
 
 #include <functional>
@@ -25,7 +26,7 @@ struct TuningOptions {
   Gains start{60.0, 0.15, 0.05};
   Gains lowest{1.0, 0.01, 1e-3};
   Gains highest{2000.0, 20.0, 1.0};
-  int evaluations = 150;
+  int evaluations = 150;    ///< of each search
   double tolerance = 0.01;  ///< stops when gains and cost change by less than this share
 
   /// The same for a valve with another span of current: a gain is a current.

@@ -83,6 +83,22 @@ TEST(Tune, BeginsWithAGainThatFitsTheValvesSpan) {
   EXPECT_LT(tuned.cost, *tuned.start_cost);
 }
 
+// On a rig whose loop swings with the gains of the start: there only the swing is made a little smaller, down
+// to a bottom of its own, and good gains are a tenth.
+TEST(Tune, FindsItsWayOutOfSwings) {
+  const auto swings = [](const Gains& gains) {
+    const double p = std::log(gains.proportional_mA / 60.0), i = std::log(gains.integral_time_s / 0.02),
+                 d = std::log(gains.derivative_time_s / 0.1);
+    const double swing = 5.0 + 0.1 * (p * p + i * i + d * d);
+    return std::min(swing + std::max(p, 0.0),
+                    bowl({20.0 * gains.proportional_mA, gains.integral_time_s, gains.derivative_time_s}));
+  };
+  const Tuned tuned = tune(swings);
+  EXPECT_NEAR(tuned.gains.proportional_mA, 6.0, 0.5);
+  EXPECT_NEAR(tuned.cost, 1.0, 0.01);
+  EXPECT_GT(tuned.start_cost.value(), 5.0);
+}
+
 TEST(Tune, SameCostGivesTheSameGains) {
   const Tuned first = tune(bowl), second = tune(bowl);
   EXPECT_EQ(first.gains.proportional_mA, second.gains.proportional_mA);
