@@ -11,9 +11,11 @@
 #include <sim/input/current_checks.hpp>
 #include <sim/input/fields_json.hpp>
 #include <sim/input/file_names.hpp>
+#include <sim/input/joint_target_checks.hpp>
 #include <sim/input/quantity.hpp>
 #include <sim/input/scenario_file.hpp>
 #include <sim/input/suggest.hpp>
+#include <sim/input/target_place.hpp>
 #include <sim/input/yaml_reader.hpp>
 
 namespace mckibben::input {
@@ -108,13 +110,8 @@ class ScenarioChecker {
       const Node& node = list("targets").children[i];
       if (node.find("name") == nullptr) target.name = fmt::format("t{:02}", i + 1);
       check_name_of(target.name, node, "target", names);
-      const double radius_m = scenario_.rig.joint.wheel_radius_m;
-      const auto [lowest, highest] = controllers::range(target.angle, scenario_.duration_s, 1.0);
-      const Place place = node.find("angle")->place;
       warn_of_late_moves(target.angle, *node.find("angle"));
-      check_contraction(1, pair()->contraction_ratio, radius_m * highest, scenario_.rig.muscle, place);
-      check_contraction(2, pair()->opposite_contraction_ratio, -radius_m * lowest, pair()->opposite.muscle,
-                        place);
+      check_joint_target(file_, node, target, scenario_, problems_);
     }
   }
 
@@ -134,16 +131,6 @@ class ScenarioChecker {
       }
     };
     std::visit(look, target);
-  }
-
-  void check_contraction(int muscle, double mounted, double rise_m, const plant::Muscle& of, Place place) {
-    const double most = mounted + rise_m / of.rest_length_m,
-                 largest = plant::Braid(of).largest_contraction_ratio();
-    if (!(most <= largest))
-      problems_.error(source_, place,
-                      fmt::format("the angle takes muscle {} to a contraction ratio of {:.4g}; its limit is "
-                                  "{:.4g} (T 2.10)",
-                                  muscle, most, largest));
   }
 
   void check_hand() {
@@ -281,7 +268,12 @@ class ScenarioChecker {
     const auto [lowest, highest] =
         controllers::range(scenario_.target, scenario_.duration_s, scenario_.rig.muscle.rest_length_m);
     const double largest = plant::Braid(scenario_.rig.muscle).largest_contraction_ratio();
-    const Place place = list("target").place;
+    const Node& target = list("target");
+    const double l0_m = scenario_.rig.muscle.rest_length_m;
+    const auto place_of = [&](const auto& beyond) {
+      return place_of_value(scenario_.target, target, l0_m, beyond);
+    };
+    const Place place = place_of([highest = highest](double ratio) { return ratio >= highest; });
     if (!std::isfinite(lowest) || !std::isfinite(highest) || highest > largest)
       problems_.error(source_, place,
                       fmt::format("the target rises to a contraction ratio of {:.4g}; "
@@ -295,7 +287,7 @@ class ScenarioChecker {
               "there is a risk to the muscle (T 2.3)",
               highest, plant::risky_contraction_ratio));
     if (lowest < 0.0)
-      problems_.warning(source_, place,
+      problems_.warning(source_, place_of([](double ratio) { return ratio < 0.0; }),
                         fmt::format("the target falls to a contraction ratio of {:.4g}; "
                                     "below 0 the threads are taut",
                                     lowest));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <plant/geometry.hpp>
+#include <sim/data/joint_reach.hpp>
 #include <sim/data/warnings.hpp>
 #include <sim/domain/number.hpp>
 #include <sim/run/briefing.hpp>
@@ -114,7 +115,7 @@ class Comparing {
           terms && terms->needs_tuning())
         open.push_back(&settings);
     if (open.empty()) return;
-    const std::size_t most = open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
+    const std::size_t most = 2 * open.size() * static_cast<std::size_t>(TuningOptions{}.evaluations);
     std::atomic<std::size_t> evaluations{0};
     progress_("tuning PID", 0, most);
     const auto tried = [&] { progress_("tuning PID", ++evaluations, most); };
@@ -271,13 +272,22 @@ class Comparing {
     return found;
   }
 
+  /// Why a joint missed its target, if none can follow that.
+  std::string beyond_joint_of(const TrackedRun& run) const {
+    if (scenario_.rig.pair() == nullptr || !run.followed()) return "";
+    const auto beyond = data::beyond_joint(scenario_, scenario_.targets[run.target], run.load_kg);
+    return beyond.angle + (beyond.angle.empty() || beyond.stiffness.empty() ? "" : "; ") + beyond.stiffness;
+  }
+
   void warn() {
     std::vector<std::string> all;
     for (std::size_t i = 0; i < result_.runs.size(); ++i) {
       const TrackedRun& run = result_.runs[i];
       const std::string& id = run.id;
       if (run.unreachable.any()) all.push_back(data::warning_of_run(id, run.unreachable.text()));
-      if (const std::string stood = limit_warning(run, scenario_.rig); !stood.empty())
+      const std::string beyond = beyond_joint_of(run);
+      if (const std::string stood = beyond.empty() ? limit_warning(run, scenario_.rig) : beyond;
+          !stood.empty())
         all.push_back(data::warning_of_run(id, stood));
       if (run.followed())
         for (const std::string& wrong :

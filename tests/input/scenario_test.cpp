@@ -114,7 +114,7 @@ TEST(Scenario, WarnsOfRisk) {
   read_text(text, &warnings);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].severity, Severity::warning);
-  EXPECT_EQ(warnings[0].place.line, 13u);
+  EXPECT_EQ(warnings[0].place.line, 17u);
   EXPECT_NE(warnings[0].message.find("risk to the muscle (T 2.3)"), std::string::npos);
 }
 
@@ -151,6 +151,44 @@ controllers: [)" + controller +
       held[0].message,
       "co_contraction = 1.5 bar: it is held, so pid does not follow the stiffness that targets ask for; "
       "leave co_contraction out to follow it");
+}
+
+TEST(Scenario, WarnsOfAJointBeyondItsValves) {
+  const auto found = [](const std::string& to, const std::string& stiffness) {
+    std::vector<Problem> warnings;
+    read_text(
+        "schema: mckibben-pair/1\nduration: 2 s\ntargets:\n  - angle: {kind: steps, moves: [{at: 0.5 s, "
+        "to: 5 deg},\n      {at: 1 s, to: " +
+            to + "}]}\n    stiffness: {kind: steps, start: " + stiffness +
+            ", moves: []}\ncontrollers: [{kind: pid}]\n",
+        &warnings);
+    return warnings;
+  };
+  for (const char* within : {"57 deg", "-57 deg"}) EXPECT_TRUE(found(within, "300 N.m/rad").size() <= 1u);
+  EXPECT_TRUE(found("20 deg", "12 N.m/rad").empty());
+  const auto far = found("70 deg", "12 N.m/rad");
+  ASSERT_EQ(far.size(), 1u) << "the stiffness comes after";
+  EXPECT_EQ(far[0].place.line, 5u);
+  EXPECT_NE(far[0].message.find("an angle of 70 deg is out of reach: commands give -57."), std::string::npos)
+      << far[0].message;
+  const auto stiff = found("5 deg", "60 N.m/rad");
+  ASSERT_EQ(stiff.size(), 1u);
+  EXPECT_EQ(stiff[0].place.line, 6u);
+  EXPECT_NE(stiff[0].message.find("a stiffness of 60 N.m/rad is out of reach at 5 deg: commands give "),
+            std::string::npos)
+      << stiff[0].message;
+}
+
+/// At the move that goes too far.
+TEST(Scenario, HeightsThatNoMuscleReachesAreShownWhereTheyAreWritten) {
+  std::vector<Problem> warnings;
+  read_text(
+      "schema: mckibben-scenario/1\nloads: [11 kg]\nduration: 9 s\ntarget:\n  kind: steps\n  start: 0.08\n"
+      "  moves:\n    - {at: 1 s, to: 0.12}\n    - {at: 4 s, to: 0.25}\n    - {at: 7 s, to: 0.1}\n"
+      "controllers: [{kind: pid}]\n",
+      &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].place.line, 9u);
 }
 
 TEST(Scenario, WarnsOfValuesThatNobodyKnows) {
