@@ -94,24 +94,27 @@ LinearTask read_task(const LineariseOptions& options) {
   return task;
 }
 
+std::optional<double> read_as(const std::string& text, std::string_view unit) {
+  try {
+    return input::read_quantity(text, unit);
+  } catch (const input::BadQuantity&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<double> command_in(const std::string& text, plant::CommandUnit unit) {
+  using enum plant::CommandUnit;
+  const auto value = read_as(text, unit == bar ? "Pa" : unit == V ? "V" : "A");
+  return value ? std::optional(*value * (unit == bar ? 1e-5 : unit == V ? 1.0 : 1e3)) : std::nullopt;
+}
+
 /// "10 mA", "2.5 bar", "0.15", "20 deg": the unit says what it is.
 linear::Place place_of(std::string_view option, const std::string& text, const plant::Rig& rig) {
   using Of = linear::Place::Of;
-  const auto as = [&](std::string_view unit) -> std::optional<double> {
-    try {
-      return input::read_quantity(text, unit);
-    } catch (const input::BadQuantity&) {
-      return std::nullopt;
-    }
-  };
+  const auto as = [&](std::string_view of) { return read_as(text, of); };
   const auto unit = rig.command_unit();
-  if (unit == plant::CommandUnit::bar) {
-    if (const auto Pa = as("Pa")) return {Of::command, *Pa * 1e-5};
-  } else if (const auto command = as(unit == plant::CommandUnit::V ? "V" : "A")) {
-    return {Of::command, unit == plant::CommandUnit::V ? *command : *command * 1e3};
-  } else if (const auto Pa = as("Pa")) {
-    return {Of::pressure, *Pa};
-  }
+  if (const auto command = command_in(text, unit)) return {Of::command, *command};
+  if (const auto Pa = as("Pa")) return {Of::pressure, *Pa};
   if (const auto position = as(rig.has_angle() ? "rad" : "1")) {
     if (!rig.has_angle() && *position >= 1.0 && !text.ends_with('%'))
       throw CLI::ValidationError(
@@ -141,11 +144,11 @@ linear::Question question_of(const LineariseOptions& options, const plant::Rig& 
     question.margins = linear::Wanted{
         .phase_rad = plant::degree_rad * positive_quantity("--margins", options.margins, "deg", 85.0)};
   if (!options.lqr.empty()) {
-    const linear::Place one = place_of("--lqr", options.lqr, rig);
-    if (one.of != linear::Place::Of::command || !(one.value > 0.0))
+    const auto command = command_in(options.lqr, rig.command_unit());
+    if (!command || !(*command > 0.0))
       throw CLI::ValidationError(fmt::format("--lqr {}: a command is wanted, as \"1 {}\"", options.lqr,
                                              name_of(rig.command_unit())));
-    question.lqr = linear::Weights{rig.has_angle() ? plant::degree_rad : 0.01, one.value};
+    question.lqr = linear::Weights{rig.has_angle() ? plant::degree_rad : 0.01, *command};
   }
   return question;
 }

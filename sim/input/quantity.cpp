@@ -275,11 +275,13 @@ std::string meant_quantity(std::string_view text, std::string_view si_unit, cons
   if (!written || si_unit == "1") return "";
   const bool rad = si_unit == "rad" && std::abs(*written) <= std::numbers::pi;  // up to half a turn
   // Where nothing is usual: steps and offsets are of mm, and what is not small of a small unit.
-  const bool unknown = usual.value == 0.0 && std::isfinite(usual.highest), large = std::abs(*written) >= 1.0;
-  const std::string_view unit = rad                                   ? si_unit
-                                : unknown && si_unit == "m"           ? "mm"
-                                : unknown && si_unit == "Pa" && large ? "mbar"
-                                                                      : usual_unit(si_unit);
+  const bool nothing_usual = usual.value == 0.0, unknown = nothing_usual && std::isfinite(usual.highest),
+             large = std::abs(*written) >= 1.0;
+  const std::string_view unit = rad                                          ? si_unit
+                                : unknown && si_unit == "m"                  ? "mm"
+                                : unknown && si_unit == "Pa" && large        ? "mbar"
+                                : nothing_usual && si_unit == "m/s" && large ? "mm/s"
+                                                                             : usual_unit(si_unit);
   for (const std::string_view one : {unit, si_unit}) {
     double value = *written;
     convert({&value, 1}, one, si_unit);

@@ -157,7 +157,7 @@ std::vector<Aside> complete(const fs::path& container) {
 }
 
 std::string to_text(const Aside& aside) {
-  return fmt::format("{} was not an unchanged earlier result of this command; it was moved to {}",
+  return fmt::format("{} was not an unchanged earlier result of this verb and input; it was moved to {}",
                      aside.from.string(), aside.to.string());
 }
 

@@ -114,7 +114,8 @@ TEST_F(Program, AResultOfAnotherJobOrOneThatWasChangedIsSetAside) {
   const std::string first = read_text(scratch / "r/run.json");
   const Said said = run("run other.yaml --out r");
   ASSERT_EQ(said.status, 0);
-  EXPECT_TRUE(holds(said.err, "r was not an unchanged earlier result of this command; it was moved to "));
+  EXPECT_TRUE(
+      holds(said.err, "r was not an unchanged earlier result of this verb and input; it was moved to "));
   EXPECT_EQ(read_text(scratch / "r.old-1/run.json"), first);
   write_text(scratch / "r/table.txt", "annotated");
   ASSERT_EQ(run("run other.yaml --out r").status, 0);
