@@ -153,7 +153,9 @@ std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, co
   plant.C *= point.shown;
   const double slightest = 1e-3 / std::abs(gain_at_rest(plant)), strongest = 1e6 * slightest;
   std::optional<PidByMargins> best;
-  for (const double w : frequencies(tick_s, 100)) {
+  // Down to an integral time in which what is in proportion hardly counts: an I controller.
+  const std::vector<double> all = frequencies(0.1 * tick_s, 120);
+  for (const double w : all) {
     const double Td_s = rounded_down(1.0 / w, digits), Ti_s = rounded_down(4.0 * Td_s, digits);
     const auto with = [&](double K) {
       return margins_of(in_series(system_of(pid_of({K, Ti_s, Td_s}), tick_s), plant));
@@ -173,20 +175,34 @@ std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, co
       const double middle = std::sqrt(low * high);
       (keeps_phase(middle) ? low : high) = middle;
     }
-    best = {
-        {rounded_down(low, digits), Ti_s, Td_s}, gain_binds, gain_binds ? 0.0 : with(high).phase_rad_per_s};
+    best = {{rounded_down(low, digits), Ti_s, Td_s},
+            gain_binds,
+            gain_binds ? 0.0 : with(high).phase_rad_per_s,
+            w == all.back()};
   }
   return best;
 }
 
 Regulator lqr(const Point& point, double tick_s, double position, double command) {
-  System plant = sampled(point.system(), tick_s);
-  plant.B *= command;  // both weighed: what is as bad as a unit of the other is one
-  plant.C /= position;
-  const Matrix gain = command * least_squares_feedback(plant);
-  plant.B /= command;
-  plant.C = gain;
-  return {(gain * point.sizes().cwiseInverse().asDiagonal()).row(0), plant};
+  const System plant = sampled(point.system(), tick_s, point.delay_s());
+  System weighed = plant;  // what is as bad as a unit of the other is one; commands before are in their unit
+  weighed.B *= command;
+  weighed.C /= position;
+  const Eigen::RowVectorXd all = command * least_squares_feedback(weighed).row(0);
+  const Eigen::Index n = point.slopes.A.rows(), late = plant.states() - n;
+  Regulator result{all.head(n) * point.sizes().cwiseInverse().asDiagonal(), all.tail(late), {}};
+  // The law with its memory: what it gave itself moves on through it.
+  System law{Matrix::Zero(late, late), Matrix::Zero(late, n), -result.before, all.head(n), tick_s};
+  if (late > 0) {
+    law.A.bottomLeftCorner(late - 1, late - 1).setIdentity();
+    law.A.row(0) = -result.before;
+    law.B.row(0) = all.head(n);
+  }
+  System states = plant;
+  states.C = Matrix::Identity(n, plant.states());
+  states.D = Matrix::Zero(n, 1);
+  result.loop = in_series(states, law);
+  return result;
 }
 
 }  // namespace mckibben::linear

@@ -50,16 +50,19 @@ struct PidByMargins {
   run::Gains gains;
   bool gain_binds = false;       ///< more gain would cost the gain margin, not the phase margin
   double binds_rad_per_s = 0.0;  ///< where it would cost the phase margin; 0: that does not bind
+  bool shortest = false;         ///< no shorter integral time was looked at: it is hardly more than I
 };
 /// Of the PIDs with Ti = 4 Td that keep the margins, the one with the largest K/Ti: it makes up for a
 /// constant disturbance soonest (Astrom & Hagglund 1995, section 4.6). None where no such PID does.
 std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, const Wanted& wanted);
 
-/// State feedback u = base - K (x - x0) each tick, which takes an error of `position` for as bad as a command
-/// of `command` beside the base. The delays are not in it.
+/// State feedback each tick, which takes an error of `position` for as bad as a command of `command` beside
+/// the base: u = base - K (x - x0) - F (commands before - base). Those on their way are states, too, as a
+/// delay keeps them back; x is as late as it is read.
 struct Regulator {
-  Eigen::RowVectorXd gain;  ///< in the units of the states, for a loop's output
-  System loop;              ///< cut open at the command
+  Eigen::RowVectorXd gain;    ///< K, in the units of the states, for a loop's output
+  Eigen::RowVectorXd before;  ///< F, of the latest command first; empty without delays
+  System loop;                ///< cut open behind the law, which knows what it gave and not what came of it
 };
 Regulator lqr(const Point& point, double tick_s, double position, double command);
 

@@ -31,10 +31,12 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
       Loop& loop = add("pid_by_margins", loop_of(point, pid_of(found->gains), rig.tick_s));
       loop.binds = found->gain_binds ? "gain" : "phase";
       loop.binds_rad_per_s = found->binds_rad_per_s;
+      loop.shortest = found->shortest;
     }
   if (question.lqr) {
     const Regulator regulator = lqr(point, rig.tick_s, question.lqr->position, question.lqr->command);
     result.lqr = regulator.gain;
+    result.lqr_before = regulator.before;
     add("lqr", regulator.loop);
   }
   return result;

@@ -20,6 +20,7 @@ struct Loop {
   double calmed_m_per_s = 0.0;   ///< of an unstable one, see there
   std::string_view binds{};      ///< of `pid_by_margins`, the margin that more gain would cost: gain or phase
   double binds_rad_per_s = 0.0;  ///< where it would cost the phase margin
+  bool shortest = false;         ///< its integral time is the shortest that was looked at
 };
 
 /// Position and command errors that count alike in a least squares feedback, in units of both.
@@ -41,7 +42,7 @@ struct Study {
   Point point;
   std::vector<Loop> loops;
   std::optional<run::Gains> by_margins{};  ///< of the loop `pid_by_margins`
-  Eigen::RowVectorXd lqr{};                ///< of the loop `lqr`; empty if none is asked for
+  Eigen::RowVectorXd lqr{}, lqr_before{};  ///< of the loop `lqr`, see Regulator; empty if none is asked for
 };
 
 /// `controllers`: those with a PidForm are loops; the others are no part of it.

@@ -1,4 +1,5 @@
 // The table, and the systems for other programs; see the header.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -58,7 +59,9 @@ std::string margins_line(const linear::Loop& loop, bool in_a_swing) {
                             : loop.binds_rad_per_s > 0.0 && elsewhere
                                 ? "; the phase margin binds, " + at(loop.binds_rad_per_s)
                                 : fmt::format("; the {} margin binds", loop.binds);
-  return fmt::format("  {:18} {:30} {}{}{}\n", loop.name, gain, phase, shrunk, binds);
+  return fmt::format(
+      "  {:18} {:30} {}{}{}{}\n", loop.name, gain, phase, shrunk, binds,
+      loop.shortest ? "; the shortest integral_time searched, hardly more than an I controller" : "");
 }
 
 std::string position_words(const Linearised& all, const linear::Point& point) {
@@ -87,6 +90,12 @@ std::string lqr_line(const Study& study, const std::string& unit) {
   for (std::size_t i = 0; i < study.point.slopes.states.size(); ++i)
     text += fmt::format("{} {} {:.4g}", i == 0 ? "" : ",", study.point.slopes.states[i].name,
                         study.lqr[static_cast<Eigen::Index>(i)]);
+  if (study.lqr_before.size() > 0) {
+    text += "\n       - F (commands before - base), F of the latest first:";
+    for (const double each : study.lqr_before) text += fmt::format(" {:.4g}", each);
+  }
+  if (study.point.reading_delay_s > 0.0)
+    text += fmt::format("; x is {:.4g} s late, as it is read", study.point.reading_delay_s);
   return text + "\n";
 }
 
@@ -138,6 +147,26 @@ std::string names_text(const std::vector<engine::Signal>& signals) {
   return text;
 }
 
+/// What the gain of a state feedback acts on, as comment lines.
+std::string words_on_lqr(const Linearised& all, const std::string& name, const std::string& before) {
+  if (!all.question.lqr) return "";
+  std::vector<std::string> lines{
+      fmt::format("{}: u = -K x, of the system sampled every tick ({:g} s), not of the one in time.", name,
+                  all.rig.tick_s)};
+  if (all.rig.pair())
+    lines.push_back(fmt::format(
+        "u is one of two inputs in one: it goes to muscle 1 with plus and to muscle 2 with minus; "
+        "the column is B [1; {:.6g}].",
+        all.studies.front().point.direction[1]));
+  if (std::ranges::any_of(all.studies, [](const Study& one) { return one.lqr_before.size() > 0; }))
+    lines.push_back(fmt::format(
+        "{}_of_commands_before: F, u = -K x - F (u before), the latest first; x as late as it is read.",
+        name));
+  std::string text;
+  for (const std::string& line : lines) text += before + line + "\n";
+  return text;
+}
+
 }  // namespace
 
 std::string title_of(const Linearised& all, const Study& study) {
@@ -174,36 +203,38 @@ std::string python_control(const Linearised& all) {
   std::string text = fmt::format(
       "\"\"\"{} as `mckibben linearise` found it, in SI units: `points`, systems of python-control.\n\n"
       "x, u and y count from the point. dead_time_s: of command and reading together, not in the "
-      "systems.\n\"\"\"\n"
-      "import control\n\npoints, dead_time_s, lqr = [], [], []\n",
-      all.name);
+      "systems.\n{}\"\"\"\nimport control\n\npoints, dead_time_s, lqr, lqr_of_commands_before = [], [], [], "
+      "[]\n",
+      all.name, words_on_lqr(all, "lqr", ""));
   for (const Study& study : all.studies) {
     const auto& s = study.point.slopes;
     text += fmt::format(
         "\n# {}\npoints.append(control.ss(\n    {},\n    {},\n    {},\n    {},\n    states=[{}],\n    "
-        "inputs=[{}],\n    outputs=[{}]))\ndead_time_s.append({})\nlqr.append({})\n",
+        "inputs=[{}],\n    outputs=[{}]))\ndead_time_s.append({})\nlqr.append({})\n"
+        "lqr_of_commands_before.append({})\n",
         title_of(all, study), in_python(s.A), in_python(s.B), in_python(s.C), in_python(s.D),
         names_text(s.states), names_text(s.inputs), names_text(s.outputs),
-        write_number(study.point.delay_s()), study.lqr.size() > 0 ? in_python(study.lqr) : "None");
+        write_number(study.point.delay_s()), study.lqr.size() > 0 ? in_python(study.lqr) : "None",
+        study.lqr_before.size() > 0 ? in_python(study.lqr_before) : "None");
   }
   return text + "\nrig = points[0]\n";
 }
 
 std::string matlab(const Linearised& all) {
   std::string text = fmt::format(
-      "% {} as `mckibben linearise` found it, in SI units. x, u and y count from the point.\npoints = "
-      "{{}};\nlqr_gain "
-      "= {{}};\n",
-      all.name);
+      "% {} as `mckibben linearise` found it, in SI units. x, u and y count from the point.\n{}points = "
+      "{{}};\nlqr_gain = {{}};\nlqr_gain_of_commands_before = {{}};\n",
+      all.name, words_on_lqr(all, "lqr_gain", "% "));
   for (std::size_t i = 0; i < all.studies.size(); ++i) {
     const Study& study = all.studies[i];
     const auto& s = study.point.slopes;
     text += fmt::format(
         "\n% {}\npoints{{{}}} = ss({}, ...\n  {}, ...\n  {}, ...\n  {}, ...\n  'StateName', {{{}}}, ...\n  "
-        "'InputName', {{{}}}, ...\n  'OutputName', {{{}}}, ...\n  'InputDelay', {});\nlqr_gain{{{}}} = {};\n",
+        "'InputName', {{{}}}, ...\n  'OutputName', {{{}}}, ...\n  'InputDelay', {});\nlqr_gain{{{}}} = {};\n"
+        "lqr_gain_of_commands_before{{{}}} = {};\n",
         title_of(all, study), i + 1, in_matlab(s.A), in_matlab(s.B), in_matlab(s.C), in_matlab(s.D),
         names_text(s.states), names_text(s.inputs), names_text(s.outputs),
-        write_number(study.point.delay_s()), i + 1, in_matlab(study.lqr));
+        write_number(study.point.delay_s()), i + 1, in_matlab(study.lqr), i + 1, in_matlab(study.lqr_before));
   }
   return text + "\nrig = points{1};\n";
 }

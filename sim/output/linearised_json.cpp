@@ -53,6 +53,7 @@ Json loop_json(const linear::Loop& loop) {
   put("lowest_gain_margin", has.shrunk_gain, nullptr, 0.0);
   put("phase_margin_rad", has.phase_rad, "phase_margin_Hz", has.phase_rad_per_s);
   if (!loop.binds.empty()) one["binding_margin"] = loop.binds;
+  if (loop.shortest) one["at_shortest_integral_time"] = true;
   return one;
 }
 
@@ -78,6 +79,7 @@ Json study_json(const Linearised& all, const Study& study) {
   for (const auto& loop : study.loops) one["loops"].push_back(loop_json(loop));
   if (study.by_margins) one["pid_by_margins"] = pid_line(all, study);
   if (study.lqr.size() > 0) one["lqr"] = rows_json(study.lqr)[0];
+  if (study.lqr_before.size() > 0) one["lqr_of_commands_before"] = rows_json(study.lqr_before)[0];
   return one;
 }
 

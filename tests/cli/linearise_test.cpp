@@ -151,6 +151,28 @@ TEST_F(Linearise, PythonProgramMakesTheSystem) {
   EXPECT_TRUE(holds(read_text(scratch / "made" / "linearise.m"), "rig = points{1};"));
 }
 
+/// A law that knows of delays, and to which muscles it goes.
+TEST_F(Linearise, StateFeedbackSaysWhatItActsOn) {
+  write_text(
+      scratch / "late.yaml",
+      "schema: mckibben-rig/1\nbase: thesis\neffects: {command_delay: {time: 30 ms}, reading_delay: {time: "
+      "10 ms}}\n");
+  const auto late = result_of("late.yaml --at 0.12 --load '11 kg' --swing '50 mm/s' --lqr '1 mA' --out late");
+  const auto& point = late.at("points").at(0);
+  EXPECT_EQ(point.at("lqr_of_commands_before").size(), 4u);
+  EXPECT_TRUE(point.at("loops").at(0).at("stable").get<bool>());
+  const std::string table = read_text(scratch / "late" / "table.txt");
+  EXPECT_TRUE(holds(table, "- F (commands before - base), F of the latest first: ", "x is 0.01 s late"));
+  for (const char* file : {"linearise.m", "linearise.py"})
+    EXPECT_TRUE(holds(read_text(scratch / "late" / file),
+                      "u = -K x, of the system sampled every tick (0.012 s)",
+                      "_of_commands_before: F, u = -K x - F (u before)"));
+  result_of("thesis_pair --at '10 deg' --lqr '1 mA' --out two");
+  for (const char* file : {"linearise.m", "linearise.py"})
+    EXPECT_TRUE(
+        holds(read_text(scratch / "two" / file), "it goes to muscle 1 with plus and to muscle 2 with minus"));
+}
+
 /// The Bode table is the response of the matrices that are exported, where no load sticks.
 TEST_F(Linearise, BodeBeginsAtTheGainAtRest) {
   const auto document = result_of("thesis --at '10 mA' --load '11 kg'");
@@ -197,7 +219,9 @@ TEST_F(Linearise, SaysWhatItCannotDo) {
       holds(unit.err, "--at 10 kg: no command as \"10 mA\", no pressure as \"2.5 bar\" and no contraction"));
   EXPECT_TRUE(holds(run("linearise thesis --at 15").err,
                     "--at 15: no contraction ratio is as large; did you mean \"15 mA\"?"));
-  EXPECT_TRUE(holds(run("linearise thesis --lqr 0.1").err, "--lqr 0.1: a command is wanted, as \"1 mA\""));
+  for (const std::string one : {"0.1", "1", "'1 V'", "'0 mA'"})
+    EXPECT_TRUE(holds(run("linearise thesis --lqr " + one).err, ": a command is wanted, as \"1 mA\"")) << one;
+  EXPECT_TRUE(holds(run("linearise thesis --swing 50").err, "it is measured in m/s: for example 50 mm/s"));
   EXPECT_TRUE(holds(run("linearise thesis --margins 60").err,
                     "--margins: 60 has no unit; it is measured in deg: for example 60 deg"));
   EXPECT_TRUE(holds(run("linearise thesis --load 11").err, "--load: 11 has no unit; it is measured in kg"));
