@@ -153,8 +153,8 @@ std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, co
   plant.C *= point.shown;
   const double slightest = 1e-3 / std::abs(gain_at_rest(plant)), strongest = 1e6 * slightest;
   std::optional<PidByMargins> best;
-  // Down to an integral time in which what is in proportion hardly counts: an I controller.
-  const std::vector<double> all = frequencies(0.1 * tick_s, 120);
+  // Down to an integral time of little more than a tick: a shorter one makes it an I controller.
+  const std::vector<double> all = frequencies(tick_s, 120);
   for (const double w : all) {
     const double Td_s = rounded_down(1.0 / w, digits), Ti_s = rounded_down(4.0 * Td_s, digits);
     const auto with = [&](double K) {

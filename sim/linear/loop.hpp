@@ -50,7 +50,7 @@ struct PidByMargins {
   run::Gains gains;
   bool gain_binds = false;       ///< more gain would cost the gain margin, not the phase margin
   double binds_rad_per_s = 0.0;  ///< where it would cost the phase margin; 0: that does not bind
-  bool shortest = false;         ///< no shorter integral time was looked at: it is hardly more than I
+  bool shortest = false;         ///< no shorter integral time was looked at
 };
 /// Of the PIDs with Ti = 4 Td that keep the margins, the one with the largest K/Ti: it makes up for a
 /// constant disturbance soonest (Astrom & Hagglund 1995, section 4.6). None where no such PID does.

@@ -61,7 +61,7 @@ std::string margins_line(const linear::Loop& loop, bool in_a_swing) {
                                 : fmt::format("; the {} margin binds", loop.binds);
   return fmt::format(
       "  {:18} {:30} {}{}{}{}\n", loop.name, gain, phase, shrunk, binds,
-      loop.shortest ? "; the shortest integral_time searched, hardly more than an I controller" : "");
+      loop.shortest ? "; the shortest integral_time searched" : "");
 }
 
 std::string position_words(const Linearised& all, const linear::Point& point) {

@@ -186,17 +186,6 @@ TEST(HandedOver, TwoFaultsOfTheBenchAndNoThird) {
   EXPECT_TRUE(found.effects.empty());
 }
 
-// A leak shows in the gauge, too, which the zero of it hides from an error that forgets at once.
-TEST(HandedOver, ALeakBesideAGaugeWhoseZeroIsOff) {
-  plant::Rig truth = with_a_leak();
-  truth.sensors.put({.signal = plant::Sensed::muscle_pressure, .kind = plant::SensorKind::gauge});
-  truth.effects.get<plant::GaugeError>().offset_Pa = 6e3;
-  const Diagnosis found = handed_over(diagnose::small(truth));
-  ASSERT_EQ(found.effects.size(), 2U) << found.because;
-  for (const diagnose::NamedEffect& effect : found.effects)
-    EXPECT_TRUE(surrounds(effect.parameters[0], effect.name == "muscle_leak" ? 2e-10 : 6e3)) << effect.name;
-}
-
 // What a model of which all loads may differ had left to each of them was in no file: 0.3 mm in all runs.
 TEST(HandedOver, ARigThatMeetsTheDataWithTheLoadsAsTheyAreReported) {
   domain::Dataset data = diagnose::small(with_a_leak());
