@@ -34,16 +34,13 @@ constexpr std::string_view unknown_spread = "unknown";
 /// Whoever calls UDUNITS holds this: alone, and with a decimal point whatever the program's locale.
 class InUdunits {
  public:
-  InUdunits() : lock_(mutex()), before_(uselocale(with_points())) {}
+  InUdunits() : lock_(only_one), before_(uselocale(with_points())) {}
   InUdunits(const InUdunits&) = delete;
   InUdunits& operator=(const InUdunits&) = delete;
   ~InUdunits() { uselocale(before_); }
 
  private:
-  static std::mutex& mutex() {
-    static std::mutex one;
-    return one;
-  }
+  static inline std::mutex only_one;
   static locale_t with_points() {
     static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
     return c;
