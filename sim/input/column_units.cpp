@@ -46,7 +46,9 @@ void to_ratio(std::vector<double>& values, const std::string& unit, const plant:
 /// The unit at the end of a heading, as in t_ms, `p [kPa]`; empty if none can be told.
 std::string unit_in_heading(std::string_view heading, const domain::Quantity& quantity) {
   const bool closed = heading.ends_with(']') || heading.ends_with(')');
-  const std::size_t from = heading.find_last_of(closed ? "[(" : "_");
+  std::size_t from = heading.find_last_of(closed ? "[(" : "_");
+  if (heading.ends_with("))") && from != std::string_view::npos && from > 0)  // of psi(g)
+    from = heading.find_last_of('(', from - 1);
   if (from == std::string_view::npos || from == 0) return "";
   std::string_view unit = heading.substr(from + 1);
   if (closed) unit.remove_suffix(1);
