@@ -297,13 +297,15 @@ Identified Search::found() && {
   const auto counts = [](const Model& m) { return std::isfinite(m.score) && !m.hopeless; };
   const auto is_general = [](const Model& m) { return m.point.terms != Terms::none; };
   // Nor does anything explain that misses them by more than the rig as described: its error and wander do.
-  const Model *named = nullptr, *described = nullptr;
-  for (const auto& [key, m] : table_) {
+  const Model* named = nullptr;
+  for (const auto& [key, m] : table_)
     if (counts(m) && !is_general(m) && (named == nullptr || m.score > named->score)) named = &m;
-    if (counts(m) && key.first) described = &m;
-  }
-  const auto most = [&](const Model* m) { return m ? missed(*m) : std::numeric_limits<double>::infinity(); };
-  const double most_of_terms = most(named), most_of_all = most(described);
+  const auto most = [&](const Model* m) {
+    return m != nullptr && counts(*m) ? missed(*m) : std::numeric_limits<double>::infinity();
+  };
+  const auto described = table_.find({true, {}});
+  const double most_of_terms = most(named),
+               most_of_all = most(described != table_.end() ? &described->second : nullptr);
   const double noise = std::max(rows_.noise.front(), rows_.count / std::sqrt(12.0));
   for (auto& [key, m] : table_) {
     if (!counts(m)) continue;

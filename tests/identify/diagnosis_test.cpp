@@ -139,6 +139,7 @@ TEST(HandedOver, AFaultOfTheBenchFirstWithTheLinesThatMendIt) {
   ASSERT_EQ(found.effects.size(), 1U);
   EXPECT_TRUE(surrounds(found.effects[0].parameters[0], 2e-10));
   EXPECT_LT(found.gap.corrected_rmse, 1.3 * found.gap.noise_floor);
+  EXPECT_GT(found.gap.nominal_rmse, 3.0 * found.gap.corrected_rmse);  // without the leak
 }
 
 TEST(HandedOver, LoadsOfALeverThatWereAllWrittenTooHeavy) {
