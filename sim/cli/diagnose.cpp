@@ -56,7 +56,7 @@ std::string what_mends(const domain::Dataset& data, const diagnose::Diagnosis& f
     if (!fault.can_be_written() || fault.size.holds(0.0)) continue;
     const auto run = std::ranges::find(data.runs, fault.runs.front(), &domain::Run::id);
     if (!fault.of_loads() || fault.runs.size() != 1 || data.parts_of_a_run)
-      return fmt::format("write in {} what the table has for it", data.path.string());
+      return fmt::format("write in {} what the table has, for the runs that it names", data.path.string());
     const auto index = static_cast<std::size_t>(run - data.runs.begin());
     const auto at =
         input::problems_of(data.path, {{.quantity = "load", .runs = {index}, .message = ""}}).front().place;

@@ -78,11 +78,11 @@ class FaultReport {
   }
 
   /// Of what is judged and what was read with it, changed.
-  std::string lines_of_readings(const auto& change) const {
+  std::string lines_of_readings(const domain::Run& of, const auto& change) const {
     std::vector<std::string> lines;
     for (const plant::Channel& kind : rows_.kinds) {
       const std::string key = kind.key_in_dataset();
-      lines.push_back(domain::line_of(key, change(place_of(run(0), key))));
+      lines.push_back(domain::line_of(key, change(place_of(of, key))));
     }
     return fmt::format("{}", fmt::join(lines, ", "));
   }
@@ -94,7 +94,7 @@ class FaultReport {
     if (entry.bench->of == &Bench::ahead_s) {
       const std::string ms = number_of(1e3 * size.value, 1e3 * deviation);
       fault.words = fmt::format("the clock of the readings is {} ms ahead of that of the input", ms);
-      fault.write = fmt::format("columns: {{{}}}", lines_of_readings([&](domain::ColumnPlace place) {
+      fault.write = fmt::format("columns: {{{}}}", lines_of_readings(run(0), [&](domain::ColumnPlace place) {
                                   return later(std::move(place), -size.value, deviation);
                                 }));
     } else if (entry.bench->of == &Bench::clock) {
@@ -102,10 +102,11 @@ class FaultReport {
                                 number_of(100.0 * std::abs(size.value), 100.0 * deviation),
                                 more_or_less(size.value, "slow", "fast"));
       fault.write = fmt::format("columns: {{{}}}, {} a column of the stamps times {}",
-                                lines_of_readings([](domain::ColumnPlace place) {
-                                  place.time = domain::fill_in;
-                                  return place;
-                                }),
+                                lines_of_readings(run(0),
+                                                  [](domain::ColumnPlace place) {
+                                                    place.time = domain::fill_in;
+                                                    return place;
+                                                  }),
                                 domain::fill_in, number_of(1.0 + size.value, deviation));
     } else {
       const bool factor = entry.bench->of == &Bench::load_factor;
@@ -241,9 +242,9 @@ class FaultReport {
       const std::string ms = number_of(1e3 * std::abs(value), 1e3 * deviation);
       fault.words =
           fmt::format("the readings of {} come {} ms {}", whose, ms, more_or_less(value, "late", "early"));
-      const std::string key = judged_key(of);
-      fault.write =
-          fmt::format("columns: {{{}}}", domain::line_of(key, later(place_of(of, key), value, deviation)));
+      fault.write = fmt::format("columns: {{{}}}", lines_of_readings(of, [&](domain::ColumnPlace place) {
+                                  return later(std::move(place), value, deviation);
+                                }));
     } else {
       const std::string rate = data::amount_of(data_.judged(), std::abs(value), data_.rig);
       fault.words = fmt::format("the readings of {} drift by {} {} a second", whose, rate,

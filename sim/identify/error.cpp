@@ -68,20 +68,21 @@ void Error::take(const Wander& wander) {
   const auto fixed = static_cast<Index>(differing.size());
   RowMajor random(rows_->size(), fixed + wander.columns.cols());
   random.setZero();
-  for (const Block& block : rows_->blocks)
-    if (rows_->is_judged(block)) {
-      random.col(zeros).segment(block.begin, block.rows).setOnes();
-      random.col(gains).segment(block.begin, block.rows) = wander.read.segment(block.begin, block.rows);
-      random.col(loads).segment(block.begin, block.rows) = wander.load.segment(block.begin, block.rows);
-      const auto read = wander.read.segment(block.begin, block.rows);
-      for (Index i = 0; i < block.rows; ++i) {
-        const Index before = std::max<Index>(i - 1, 0), after = std::min(i + 1, block.rows - 1);
-        if (after > before)
-          random(block.begin + i, delays) =
-              (read[before] - read[after]) / (static_cast<double>(after - before) * rows_->row_s);
-        random(block.begin + i, drifts) = static_cast<double>(i) * rows_->row_s;
-      }
+  for (const Block& block : rows_->blocks) {
+    const auto read = wander.read.segment(block.begin, block.rows);
+    for (Index i = 0; i < block.rows; ++i) {  // one recorder has all readings of a run
+      const Index before = std::max<Index>(i - 1, 0), after = std::min(i + 1, block.rows - 1);
+      if (after > before)
+        random(block.begin + i, delays) =
+            (read[before] - read[after]) / (static_cast<double>(after - before) * rows_->row_s);
     }
+    if (!rows_->is_judged(block)) continue;
+    random.col(zeros).segment(block.begin, block.rows).setOnes();
+    random.col(gains).segment(block.begin, block.rows) = read;
+    random.col(loads).segment(block.begin, block.rows) = wander.load.segment(block.begin, block.rows);
+    random.col(drifts).segment(block.begin, block.rows) =
+        Eigen::VectorXd::LinSpaced(block.rows, 0.0, static_cast<double>(block.rows - 1) * rows_->row_s);
+  }
   random.rightCols(wander.columns.cols()) = wander.columns;
   std::vector<Eigen::MatrixXd> roots;
   for (const auto& knots : wander.knots) {

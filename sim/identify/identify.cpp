@@ -65,7 +65,8 @@ double Search::best_score() const {
 
 /// At the beginning of a descent. None depends on those before it.
 Model Search::started(Point point, double term_N) const {
-  step(fmt::format("trying {}", fmt::join(dictionary_.names(point), " + ")));
+  const Names names = dictionary_.names(point);
+  step(names.empty() ? "trying other numbers" : fmt::format("trying {}", fmt::join(names, " + ")));
   Model m(problem_, std::move(point), at_->error.begun(), term_N);
   m.look();
   return m;

@@ -27,7 +27,7 @@ constexpr double load_step = 0.1;
 Eigen::VectorXd seen(const Rows& rows, const Block& block, const Readings& readings, const Bench& bench) {
   const std::vector<double>& list = readings.readings[block.reading];
   Eigen::VectorXd part = Eigen::Map<const Eigen::VectorXd>(list.data(), block.rows);
-  const double ahead_s = bench.ahead_s - (block.kind == 0 ? bench.of_run(delays, block.run) : 0.0);
+  const double ahead_s = bench.ahead_s - bench.of_run(delays, block.run);
   if (bench.clock != 0.0 || ahead_s != 0.0) part = clocked(part, bench.clock, ahead_s / rows.row_s);
   if (block.kind == 0) part.array() += bench.zero;
   return part;

@@ -134,12 +134,20 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
           table, *column, 0,
           fmt::format("{0}write factor: how many {1} are 1 {2}, also if it is 1, and zero: the {2} at {3}",
                       what, taken, said, quantity.key == "contraction" ? "rest length" : "0 " + taken));
-    else
-      problems.add(
-          table, *column, 0,
-          fmt::format("{}write columns: {{{}}}, if {} is right{}", what,
-                      line_of(quantity.key, {column->in_file, said, place.zero, place.factor}),
-                      in_heading ? "it" : "the table", in_heading ? ", or factor: 1 if it is not" : ""));
+    else {
+      // Of what falls, -1 says no unit: then the heading's, and what one of ours is of it.
+      const bool falls = place.factor == -1.0;
+      std::vector<double> of_ours{place.factor};
+      if (falls) convert_units(of_ours, taken, said);
+      const ColumnPlace right{column->in_file, said, place.zero, place.factor},
+          wrong{column->in_file, said, place.zero, of_ours.front()};
+      problems.add(table, *column, 0,
+                   fmt::format("{}write columns: {{{}}}, if {} is right{}", what,
+                               line_of(quantity.key, right), in_heading ? "it" : "the table",
+                               !in_heading ? ""
+                               : falls     ? ", or " + line_of(quantity.key, wrong) + " if it is not"
+                                           : ", or factor: 1 if it is not"));
+    }
   }
 }
 

@@ -72,11 +72,13 @@ Readable readable(const diagnose::FittedNumber& number) {
           with_unit(digits(low, decimals) + " to " + digits(high, decimals), unit)};
 }
 
-Readable readable(const diagnose::BenchFault& fault) {
+Readable readable(const diagnose::BenchFault& fault, const plant::Rig& rig) {
   diagnose::FittedNumber size = fault.size;
-  const bool share = size.unit == "1" && fault.name != "zeros_differ";
-  if (share)
-    for (double* number : {&size.value, &size.low, &size.high}) *number *= 100.0;
+  const bool length = size.unit == "1/s" || (size.unit == "1" && fault.name == "zeros_differ"),
+             share = size.unit == "1" && !length;
+  for (double* number : {&size.value, &size.low, &size.high})
+    *number *= length ? rig.muscle.rest_length_m : share ? 100.0 : 1.0;
+  if (length) size.unit = size.unit == "1" ? "m" : "m/s";
   Readable shown = readable(size);
   if (share) {
     shown.value += " %";

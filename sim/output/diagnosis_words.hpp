@@ -25,7 +25,7 @@ struct Readable {
 Readable readable(const diagnose::FittedNumber& number);
 
 /// The size of a fault of the bench, as its name tells: "-1.00 kg", "-5.0 %".
-Readable readable(const diagnose::BenchFault& fault);
+Readable readable(const diagnose::BenchFault& fault, const plant::Rig& rig);
 
 /// A difference of contraction ratios as height of the load: "1.96 mm", never finer than a micrometre.
 std::string height(double ratio, const plant::Rig& rig);

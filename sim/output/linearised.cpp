@@ -59,9 +59,8 @@ std::string margins_line(const linear::Loop& loop, bool in_a_swing) {
                             : loop.binds_rad_per_s > 0.0 && elsewhere
                                 ? "; the phase margin binds, " + at(loop.binds_rad_per_s)
                                 : fmt::format("; the {} margin binds", loop.binds);
-  return fmt::format(
-      "  {:18} {:30} {}{}{}{}\n", loop.name, gain, phase, shrunk, binds,
-      loop.shortest ? "; the shortest integral_time searched" : "");
+  return fmt::format("  {:18} {:30} {}{}{}{}\n", loop.name, gain, phase, shrunk, binds,
+                     loop.shortest ? "; the shortest integral_time searched" : "");
 }
 
 std::string position_words(const Linearised& all, const linear::Point& point) {

@@ -187,6 +187,24 @@ TEST(HandedOver, TwoFaultsOfTheBenchAndNoThird) {
   EXPECT_TRUE(found.effects.empty());
 }
 
+// One recorder has the encoder and the gauge: taken for the encoder's alone, the gauge forbade a delay.
+TEST(HandedOver, ARunWhoseReadingsAreAllLate) {
+  plant::Rig truth;
+  truth.sensors.put({.signal = plant::Sensed::muscle_pressure, .kind = plant::SensorKind::gauge});
+  domain::Dataset data = diagnose::small(truth);
+  for (domain::Reading& reading : data.runs[4].readings) {
+    const auto from = reading.values.end() - 2;
+    std::move_backward(reading.values.begin(), from, reading.values.end());
+  }
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 1U) << found.because;
+  EXPECT_EQ(found.bench[0].name, "delays_differ");
+  EXPECT_EQ(found.bench[0].runs, std::vector<std::string>{"r05"});
+  EXPECT_NEAR(found.bench[0].size.value, 0.024, 0.001);
+  EXPECT_TRUE(holds(found.bench[0].write, "contraction: {", "muscle_pressure: {", "late: "));
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;
+}
+
 // What a model of which all loads may differ had left to each of them was in no file: 0.3 mm in all runs.
 TEST(HandedOver, ARigThatMeetsTheDataWithTheLoadsAsTheyAreReported) {
   domain::Dataset data = diagnose::small(with_a_leak());
