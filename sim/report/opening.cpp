@@ -106,8 +106,8 @@ std::vector<Found> found_in(const Diagnosis& diagnosis) {
       before->size = fmt::format(
           "{} runs", std::ranges::count(diagnosis.bench, fault.name, &diagnose::BenchFault::name));
     else
-      list.push_back(
-          {fault.of_loads() ? Part::guide : Part::encoder, fault.name, output::readable(fault, diagnosis.corrected).value});
+      list.push_back({fault.of_loads() ? Part::guide : Part::encoder, fault.name,
+                      output::readable(fault, diagnosis.corrected).value});
   }
   if (!diagnosis.residual_law.empty())
     list.push_back(

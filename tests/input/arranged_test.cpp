@@ -345,8 +345,8 @@ TEST_F(Arranged, AHeadingThatContradictsTheMapIsAsked) {
 TEST_F(Arranged, AHeadingThatContradictsTheMapOfWhatFalls) {
   const std::string table = "t,p,x [cm]\n0,1,0\n10,2,-1\n20,3,-2\n";
   const std::string asked = refused(table, in_ms, "", "", "column: \"x [cm]\", unit: mm, factor: -1");
-  EXPECT_TRUE(holds(asked, "its heading says cm, and it is read in mm", "unit: cm, factor: -1}}, if it is right",
-                    "unit: cm, factor: -0.1} if it is not"))
+  EXPECT_TRUE(holds(asked, "its heading says cm, and it is read in mm",
+                    "unit: cm, factor: -1}}, if it is right", "unit: cm, factor: -0.1} if it is not"))
       << asked;
   EXPECT_EQ(refused(table, in_ms, "", "", "column: \"x [cm]\", unit: cm, factor: -0.1"), "accepted");
 }
