@@ -142,9 +142,8 @@ class HandingOver {
     const Verdict decided = of_the_rig(found_.decision.verdict);
     if (found_.ended != Ended::no && decided != Verdict::missing_effect) return Verdict::cannot_tell;
     const Model* parameters = found_.of(false);
-    // What leaves more than noise, and most of the gap, is no answer.
-    if ((decided == Verdict::recalibrate || decided == Verdict::missing_effect) &&
-        !found_.chosen().error.explains() &&
+    // Parameters that leave more than noise, and most of the gap, are no answer.
+    if (decided == Verdict::recalibrate && !found_.chosen().error.explains() &&
         gap_of(found_, three(found_.decision.chosen), experiment_.floor()).closed <
             diagnose::thresholds.tell.closed)
       return found_.table[found_.decision.best].general ? Verdict::unknown_effect : Verdict::cannot_tell;

@@ -32,10 +32,6 @@ double usual_length_s(const Rows& rows) {
   return std::max(decisive.error_length_s, rows.row_s);
 }
 
-/// Of 1/16 of the span: regulators hold their pressure within half a per cent of it (sheets of VPPM, ITV).
-/// What wanders further is an effect.
-constexpr double most_wander = 0.1;
-
 }  // namespace
 
 Error::Error(const Rows& rows, const Wander& wander, unsigned threads) : rows_(&rows), threads_(threads) {
@@ -302,7 +298,7 @@ bool Error::allowed() const {
   return logs_[0] >= std::log(0.02 * rows_->unit) && logs_[1] >= std::log(1e-3 * rows_->unit) &&
          logs_[2] >= std::log(0.03) && logs_[2] <= std::log(std::max(20.0, rows_->longest_s)) &&
          std::abs(logs_[constant_at()]) <= std::log(30.0) && logs_[wander_at()] > -9.2 &&
-         logs_[wander_at()] < std::log(most_wander);
+         logs_[wander_at()] < 0.0;
 }
 
 double Error::log_prior() const {

@@ -297,7 +297,7 @@ Identified Search::found() && {
   const auto missed = [&](const Model& m) { return rows_.rms(unpredicted(m, groups)); };
   const auto counts = [](const Model& m) { return std::isfinite(m.score) && !m.hopeless; };
   const auto is_general = [](const Model& m) { return m.point.terms != Terms::none; };
-  // Nor does anything explain that misses them by more than the rig as described: its error and wander do.
+  // Nor does anything explain of whose misses the rig as described would close most: its error and wander do.
   const Model* named = nullptr;
   for (const auto& [key, m] : table_)
     if (counts(m) && !is_general(m) && (named == nullptr || m.score > named->score)) named = &m;
@@ -306,7 +306,8 @@ Identified Search::found() && {
   };
   const auto described = table_.find({true, {}});
   const double most_of_terms = most(named),
-               most_of_all = most(described != table_.end() ? &described->second : nullptr);
+               most_of_all = most(described != table_.end() ? &described->second : nullptr) /
+                             std::sqrt(1.0 - diagnose::thresholds.tell.closed);
   const double noise = std::max(rows_.noise.front(), rows_.count / std::sqrt(12.0));
   for (auto& [key, m] : table_) {
     if (!counts(m)) continue;

@@ -49,15 +49,16 @@ std::string name_of(const NamedEffect& effect) {
   return diagnose::full_name(effect.name, "", effect.side);
 }
 
-/// The most probable model without this name: of the others of the chosen one, or without any.
+/// The most probable model without this name: of the others of the chosen one, or without any; else the rig
+/// as described.
 const Scored* without(const Identified& found, const std::string& name) {
   Names rest = found.table[found.decision.chosen].names;
   std::erase(rest, name);
   const Scored* best = nullptr;
   for (const Scored& one : found.table) {
-    if (one.general || one.described) continue;
-    if (one.names == rest) return &one;
-    if (one.names.empty()) best = &one;
+    if (one.general) continue;
+    if (one.names == rest && !one.described) return &one;
+    if (one.names.empty() && (best == nullptr || best->described)) best = &one;
   }
   return best;
 }

@@ -67,8 +67,8 @@ class ControllerChecker {
     if (!stiffness || terms == nullptr || !terms->co_contraction_Pa) return;
     const Node& held = *node.find("co_contraction");
     problems_.warning(source_, held.place,
-                      fmt::format("co_contraction = {}: it is held, so {} does not follow the stiffness that "
-                                  "targets ask for; leave co_contraction out to follow it",
+                      fmt::format("co_contraction = {}: it is held, so {} does not follow the stiffness of "
+                                  "targets; leave co_contraction out to follow it",
                                   held.text, controllers::name_of(settings)));
   }
 

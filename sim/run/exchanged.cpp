@@ -147,7 +147,8 @@ std::optional<data::Finding> exchanged_columns(const domain::Dataset& data) {
       found = data::Finding{.quantity = a,
                             .message = fmt::format("{} and {} look exchanged: so the rig does what was read, "
                                                    "but for {:.0f} %, and as they are it does not; write "
-                                                   "columns: {{{}}}",
+                                                   "columns: {{{}}}, with factor: 1 where a heading says "
+                                                   "another unit",
                                                    a, b, 100.0 * std::sqrt(left), lines)};
     }
   if (!found) return found;

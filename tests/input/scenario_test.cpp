@@ -147,10 +147,9 @@ controllers: [)" + controller +
   const auto held = messages("{kind: pid, co_contraction: 1.5 bar}");
   ASSERT_EQ(held.size(), 1u);
   EXPECT_EQ(held[0].place.line, 6u);
-  EXPECT_EQ(
-      held[0].message,
-      "co_contraction = 1.5 bar: it is held, so pid does not follow the stiffness that targets ask for; "
-      "leave co_contraction out to follow it");
+  EXPECT_EQ(held[0].message,
+            "co_contraction = 1.5 bar: it is held, so pid does not follow the stiffness of targets; "
+            "leave co_contraction out to follow it");
 }
 
 TEST(Scenario, WarnsOfAJointBeyondItsValves) {
