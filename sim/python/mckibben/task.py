@@ -15,13 +15,18 @@ def number(name, value, lowest, highest, unit=""):
     return float(value)
 
 
+def array_of(given):
+    """As NumPy reads it; of what is no array at all one that holds no number."""
+    try:
+        return numpy.asarray(given)
+    except (TypeError, ValueError):
+        return numpy.array(None)
+
+
 def actions_of(given, shape):
     """Finite numbers in this shape; of one action each without its last axis, too. What can be read as numbers, such
     as texts and dates, is none."""
-    try:
-        values = numpy.asarray(given)
-    except (TypeError, ValueError):
-        values = numpy.array(None)
+    values = array_of(given)
     shapes = [shape, shape[:-1]] if shape[-1] == 1 else [shape]
     if values.dtype.kind not in "fiu" or values.shape not in shapes or not numpy.isfinite(values).all():
         raise ValueError(f"action = {reprlib.repr(given)}: must be finite numbers of shape {shape}")
@@ -30,10 +35,7 @@ def actions_of(given, shape):
 
 def returned(name, given, shape):
     """What a subclass's method gave: numbers of this shape. Raises ValueError."""
-    try:
-        values = numpy.asarray(given)
-    except (TypeError, ValueError):
-        values = numpy.array(None)
+    values = array_of(given)
     if values.dtype.kind not in "fiub" or values.shape != shape:
         many = f"an array of {shape[0]}, one for each member that moved" if shape else "one number"
         raise ValueError(f"{name} returned {reprlib.repr(given)}: must be {many}")
@@ -281,12 +283,12 @@ class Episode:
         self.tick += 1
         before, self.last = self.last, counted
         reward = -100.0 * abs(self.last - self.wanted[self.tick])
-        self.rows.append((self.tick * self.tick_s, self.wanted[self.tick], self.last, *self.given, reward))
+        self.rows.append([self.tick * self.tick_s, self.wanted[self.tick], self.last, *self.given, reward])
         return self.seen((self.last - before) / self.tick_s), reward, self.over()
 
     def rewarded(self, reward):
         """The last tick, by whoever rewards it otherwise."""
-        self.rows[-1] = (*self.rows[-1][:-1], reward)
+        self.rows[-1][-1] = reward
 
     def over(self):
         return self.tick + 1 >= len(self.wanted)
