@@ -298,6 +298,17 @@ std::optional<double> size_Pa(std::string_view unit) {
   return std::nullopt;
 }
 
+std::optional<double> size_in_ours(const domain::Run& run, const plant::Channel& channel,
+                                   std::string_view unit) {
+  if (channel.is("contraction")) return run.ratio_per_unit;
+  if (channel.is_pressure()) return size_Pa(unit);
+  constexpr std::array<std::pair<std::string_view, double>, 5> sizes{
+      {{"N", 1.0}, {"kN", 1e3}, {"kgf", plant::gravity_m_per_s2}, {"rad", 1.0}, {"deg", plant::degree_rad}}};
+  for (const auto& [name, size] : sizes)
+    if (unit == name) return size;
+  return unit == channel.signal->unit.name ? std::optional(1.0) : std::nullopt;
+}
+
 double coarse_step(const domain::Dataset& data, const domain::Run& run, const Series& values) {
   if (run.measured && (run.measured->counted || run.measured->point_s > 0.0)) return 0.0;
   const Series readings = known(values);

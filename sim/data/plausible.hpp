@@ -23,6 +23,11 @@ double coarse_step(const domain::Dataset& data, const domain::Run& run, const st
 /// Of a pressure's unit, in the spellings that `columns` usually has.
 std::optional<double> size_Pa(std::string_view unit);
 
+/// What one of a column's unit is in what the signal is calculated in: contraction ratio, Pa, N, rad; none
+/// where that is not known here.
+std::optional<double> size_in_ours(const domain::Run& run, const plant::Channel& channel,
+                                   std::string_view unit);
+
 /// What to write if the pressure that this key gives is absolute; empty if it has a zero.
 std::string if_absolute(const domain::Dataset& data, std::size_t run, const std::string& key);
 

@@ -322,7 +322,6 @@ class FaultReport {
     return std::string(data::si_unit(*data_.runs.front().judged().channel.signal));
   }
 
-  std::string judged_key(const domain::Run& of) const { return of.judged().channel.key_in_dataset(); }
   domain::ColumnPlace place_of(const domain::Run& of, const std::string& key) const {
     return data::with_our_names(domain::merged(data_.columns, of.columns), data_.rig.command_unit())[key];
   }
@@ -334,12 +333,10 @@ class FaultReport {
   /// A run's own place for the judged reading, with what is off taken out. Empty where its unit's size is not
   /// known here.
   std::string column_line(const domain::Run& of, double zero, double factor, double deviation) const {
-    const std::string key = judged_key(of);
+    const plant::Channel& channel = of.judged().channel;
+    const std::string key = channel.key_in_dataset();
     domain::ColumnPlace place = place_of(of, key);
-    const std::optional<double> size = of.judged().channel.is_pressure() ? data::size_Pa(place.unit)
-                                       : key == "contraction"            ? of.ratio_per_unit
-                                       : place.unit == "deg"             ? plant::degree_rad
-                                                                         : 1.0;
+    const std::optional<double> size = data::size_in_ours(of, channel, place.unit);
     if (!size) return "";
     place.zero += zero / (place.factor * *size);
     place.factor *= factor;

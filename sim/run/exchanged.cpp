@@ -1,6 +1,5 @@
 // See the header. Every pair of columns is tried: the first runs are simulated with each.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -79,15 +78,9 @@ double left_of(domain::Dataset data) {
   return worst;
 }
 
-/// What one of its column's unit is in ours, by all that `columns` says; 0 where that is not known here.
+/// What one of its column is in ours, by all that `columns` says; 0 where that is not known here.
 double size_of(const domain::Run& run, const plant::Channel& channel, const ColumnPlace& place) {
-  if (channel.is("contraction")) return place.factor * run.ratio_per_unit;
-  if (channel.is_pressure()) return place.factor * data::size_Pa(place.unit).value_or(0.0);
-  constexpr std::array<std::pair<std::string_view, double>, 5> sizes{
-      {{"N", 1.0}, {"kN", 1e3}, {"kgf", plant::gravity_m_per_s2}, {"rad", 1.0}, {"deg", plant::degree_rad}}};
-  for (const auto& [unit, size] : sizes)
-    if (place.unit == unit) return place.factor * size;
-  return place.unit == channel.signal->unit.name ? place.factor : 0.0;
+  return place.factor * data::size_in_ours(run, channel, place.unit).value_or(0.0);
 }
 
 /// The lines of `columns` in which they are exchanged; empty if the two cannot be, in one of the runs.
