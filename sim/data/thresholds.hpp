@@ -58,8 +58,8 @@ struct ColumnThresholds {
 /// Columns that are tried in each other's place.
 struct ExchangedThresholds {
   std::size_t most_runs = 4, most_stamps = 20'000, most_rows = 2'000;  ///< simulated for each pair
-  double most_left = 0.25;  ///< of the squares of every reading; as they are said, more is left of one,
-  double nearer = 0.25;     ///< and so much less of it
+  double least_left = 0.02;  ///< of the squares of every reading: with less left they are as they are said
+  double most_left = 0.25, nearer = 0.25;  ///< exchanged, less is left, and such a share of that at most
 };
 
 /// Loads, weighed by the muscle.

@@ -123,7 +123,7 @@ std::optional<data::Finding> exchanged_columns(const domain::Dataset& data) {
     return std::nullopt;
   const domain::Dataset first = first_of(data);
   const double as_said = left_of(first);
-  if (as_said < of_trial.most_left) return std::nullopt;
+  if (as_said < of_trial.least_left) return std::nullopt;
   const auto& columns = first.runs.front().measured->columns;
   double least = std::min(of_trial.most_left, of_trial.nearer * as_said);
   std::optional<data::Finding> found;

@@ -1,5 +1,6 @@
 // Columns of one muscle that are each other's are told by simulating with each pair exchanged.
 #include <algorithm>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -11,9 +12,8 @@
 namespace mckibben::run {
 namespace {
 
-/// The sound data with stamps, and what one of each column's unit is in ours.
-domain::Dataset stamped() {
-  domain::Dataset data = sound();
+/// The data with stamps.
+domain::Dataset stamped(domain::Dataset data = sound()) {
   data.own_clock = true;
   data.columns["command"] = {"U", "mA"};
   data.columns["contraction"] = {"x", "mm"};
@@ -33,10 +33,10 @@ domain::Dataset stamped() {
   return data;
 }
 
-std::string told(std::size_t one, std::size_t other) {
-  domain::Dataset data = stamped();
+/// What is said once two of the columns hold each other's numbers.
+std::string told(std::size_t one, std::size_t other, domain::Dataset data = stamped()) {
   for (domain::Run& run : data.runs) {
-    const double size[] = {1.0, run.ratio_per_unit, plant::Pa_per_bar};
+    const double size[] = {data.columns["command"].factor, run.ratio_per_unit, plant::Pa_per_bar};
     auto& columns = run.measured->columns;
     for (std::size_t k = 0; k < run.measured->time_s.size(); ++k) {
       double &a = columns[one].values[k], &b = columns[other].values[k];
@@ -57,6 +57,18 @@ TEST(Exchanged, EveryPairOfColumnsIsTold) {
             "write columns: {command: {column: p, unit: mA}, muscle_pressure: {column: U, unit: bar}}"));
   EXPECT_TRUE(holds(told(1, 2), "contraction and muscle_pressure look exchanged"));
   EXPECT_TRUE(holds(told(0, 1), "command and contraction look exchanged"));
+}
+
+TEST(Exchanged, APressureThatWasSetAndTheOneThatFollowedItAreTold) {
+  plant::Rig rig;
+  rig.valve.kind = plant::ValveKind::regulator;
+  rig.valve.zero_command = rig.valve.zero_pressure_Pa = 0.0;
+  rig.valve.time_constant_s = 0.1;
+  rig.sensors.put(plant::gauge());
+  domain::Dataset data = stamped(measured_on(rig, {11.138, 16.138, 23.406}, rig));
+  data.columns["command"].factor = 4.0;  // mA in the file's number of bar
+  EXPECT_FALSE(exchanged_columns(data));
+  EXPECT_TRUE(holds(told(0, 2, std::move(data)), "command and muscle_pressure look exchanged"));
 }
 
 TEST(Exchanged, ColumnsThatAreRightOrWrongOtherwiseAreNot) {
