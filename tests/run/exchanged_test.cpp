@@ -63,7 +63,7 @@ TEST(Exchanged, APressureThatWasSetAndTheOneThatFollowedItAreTold) {
   plant::Rig rig;
   rig.valve.kind = plant::ValveKind::regulator;
   rig.valve.zero_command = rig.valve.zero_pressure_Pa = 0.0;
-  rig.valve.time_constant_s = 0.1;
+  rig.valve.time_constant_s = 0.05;
   rig.sensors.put(plant::gauge());
   domain::Dataset data = stamped(measured_on(rig, {11.138, 16.138, 23.406}, rig));
   data.columns["command"].factor = 4.0;  // mA in the file's number of bar
