@@ -159,9 +159,7 @@ void add_far_off(const domain::Dataset& data, const std::vector<ReplayedRun>& re
   for (auto& [reading, found] : worst) {
     const double read = found.gap.high - found.gap.low, share = found.gap.rmse / read;
     const auto explains = [&](const data::Finding& one) {
-      const bool says_its_line =
-          one.message.find(reading + ": {") != std::string::npos;  // as of two exchanged
-      return one.quantity == reading || says_its_line || one.severity == data::Severity::refused;
+      return one.quantity == reading || one.severity == data::Severity::refused;
     };
     if (!(share > most) || !std::isfinite(share) || std::ranges::any_of(findings, explains)) continue;
     std::vector<std::size_t> far;  // but for runs whose loads are found to be wrong

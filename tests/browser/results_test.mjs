@@ -57,7 +57,7 @@ test('a replay with a gauge shows the measured pressure too, over time and in th
   near(
       (await seriesOf(page, 'pressures')).measured.values, csv.muscle_pressure_bar,
       rangeOf(csv.muscle_pressure_bar), 'measured');
-  const error = simulated.muscle_pressure_bar.map((bar, k) => bar - csv.muscle_pressure_bar[k]);
+  const error = simulated.gauge_pressure_bar.map((bar, k) => bar - csv.muscle_pressure_bar[k]);
   near(
       (await seriesOf(page, 'muscle_pressure_error'))['error, simulated'].values, error, rangeOf(error),
       'error');
