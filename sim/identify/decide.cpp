@@ -45,6 +45,12 @@ int size_of(const Scored& model) {
   return static_cast<int>(model.names.size()) - (model.described ? 1 : 0);
 }
 
+/// What the bench has wrong in a run says nothing of unseen ones: of its faults the evidence decides.
+bool lacks_a_fault_of(const Scored& one, const Scored& reference) {
+  return one.score < reference.score - decisive.strong &&
+         !std::ranges::includes(one.faults, reference.faults);
+}
+
 }  // namespace
 
 bool closes_the_gap_of(const Scored& model, const Scored& other) {
@@ -88,7 +94,8 @@ Decision decide(const std::vector<Scored>& table) {
     if (!std::isfinite(table[i].score) || !(nats <= decisive.errors * error) || !allowed(table[i])) continue;
     if (table[i].general) continue;  // many terms are not simple
     // What leaves the gap is no simpler way to close it.
-    if (closes_the_gap_of(table[reference], table[i])) continue;
+    if (closes_the_gap_of(table[reference], table[i]) || lacks_a_fault_of(table[i], table[reference]))
+      continue;
     const Scored& chosen = table[decision.chosen];
     if (!allowed(chosen) || chosen.general || size_of(table[i]) < size_of(chosen) ||
         (size_of(table[i]) == size_of(chosen) && table[i].score > chosen.score))

@@ -15,13 +15,14 @@ using diagnose::Verdict;
 
 /// A model as the decision sees it.
 struct Scored {
-  std::vector<std::string> names{};  ///< that are at work
-  bool described = false;            ///< no parameter is free
-  bool general = false;              ///< it has general terms
-  double score = 0.0;                ///< log evidence and log prior of the set [nats]
-  Eigen::VectorXd held_out{};        ///< log density of each group of runs given the others
-  double above_noise = 0.0;          ///< mean square of what is left of them, less that of noise
-  double off_sheet = 0.0;            ///< of the parameter that is furthest off [deviations]
+  std::vector<std::string> names{};   ///< that are at work
+  std::vector<std::string> faults{};  ///< those of them that are the bench's
+  bool described = false;             ///< no parameter is free
+  bool general = false;               ///< it has general terms
+  double score = 0.0;                 ///< log evidence and log prior of the set [nats]
+  Eigen::VectorXd held_out{};         ///< log density of each group of runs given the others
+  double above_noise = 0.0;           ///< mean square of what is left of them, less that of noise
+  double off_sheet = 0.0;             ///< of the parameter that is furthest off [deviations]
 };
 
 struct Decision {

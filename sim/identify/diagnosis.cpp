@@ -138,10 +138,22 @@ class HandingOver {
     return said;
   }
 
+  /// The most probable model with nothing but the rig's parameters and faults of the bench; null: none.
+  const Model* without_effects() const {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < found_.table.size(); ++i) {
+      const Scored& one = found_.table[i];
+      if (!one.described && !one.general && !found_.models[i].has_effects() &&
+          (!best || one.score > found_.table[*best].score))
+        best = i;
+    }
+    return best ? &found_.models[*best] : nullptr;
+  }
+
   Verdict verdict_of_search() {
     const Verdict decided = of_the_rig(found_.decision.verdict);
     if (found_.ended != Ended::no && decided != Verdict::missing_effect) return Verdict::cannot_tell;
-    const Model* parameters = found_.of(false);
+    const Model* parameters = without_effects();
     // Parameters that leave more than noise, and most of the gap, are no answer.
     if (decided == Verdict::recalibrate && !found_.chosen().error.explains() &&
         gap_of(found_, three(found_.decision.chosen), experiment_.floor()).closed <

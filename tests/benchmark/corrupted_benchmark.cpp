@@ -43,12 +43,16 @@ bool names_it(const Corruption& corruption, const std::string& sentence) {
 
 }  // namespace
 
-void score_corrupted(const Asked& asked, const std::string& only) {
+void score_corrupted(Asked asked, std::uint64_t first, std::uint64_t seeds, const std::string& wanted) {
   int all = 0, wrong = 0, named = 0, within_noise = 0, kept = 0, hidden_effects = 0;
-  for (const Hidden& base : sound_data(asked.seed)) {
+  std::vector<Hidden> bases;
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed)
+    for (Hidden& base : sound_data(seed)) bases.push_back(std::move(base));
+  for (const Hidden& base : bases) {
+    asked.seed = base.seed;
     for (const Corruption& corruption : corruptions()) {
       const std::string label = base.title + ": " + corruption.name;
-      if (label.find(only) == std::string::npos) continue;
+      if (!label.starts_with(wanted)) continue;
       domain::Dataset data = base.data;
       corruption.spoil(data);
       const auto start = std::chrono::steady_clock::now();

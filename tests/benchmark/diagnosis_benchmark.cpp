@@ -16,7 +16,7 @@
 //                                                open, the measurement that is asked for is made, and all is
 //                                                diagnosed again
 //   benchmark_diagnosis --pairs [SEED [SEEDS]]   two muscles on one wheel, an effect in one, both or none
-//   benchmark_diagnosis --corrupted [SEED [only=NAME]]   the same for data that were spoilt on purpose
+//   benchmark_diagnosis --corrupted [SEED [SEEDS [TITLE]]]   the same for data that were spoilt on purpose
 //
 // Every third data set is of the thesis's rig, of one of another size, of one that is badly known.
 // Started by mpirun or srun, its processes share the data sets out and meet in out/bench-diagnosis.ranks.
@@ -163,20 +163,6 @@ void score_all(const std::vector<DataSet>& sets, const std::string& words) {
   if (cluster::crew().leads()) score.print();
 }
 
-void score_corrupted(const std::vector<std::string>& words) {
-  std::uint64_t seed = 201;
-  std::string only;
-  for (const auto& word : words) {
-    if (word.starts_with("only="))
-      only = word.substr(5);
-    else
-      seed = std::strtoull(word.c_str(), nullptr, 10);
-  }
-  diagnose::Asked asked{.seed = seed};
-  if (verbose) asked.say = [](const std::string& what) { fmt::print("{}\n", what); };
-  diagnose::score_corrupted(asked, only);
-}
-
 constexpr std::array suites{"",       "--nulls",  "--off-sheet", "--other-laws",
                             "--weak", "--advice", "--pairs",     "--corrupted"};
 
@@ -187,7 +173,6 @@ bool is_number(const std::string& word) {
 /// Whether a suite takes these words: at most two numbers, then a title.
 bool are_understood(const std::string& suite, const std::vector<std::string>& words) {
   if (std::ranges::find(suites, suite) == suites.end()) return false;
-  if (suite == "--corrupted") return true;
   return words.size() <= 3 &&
          std::all_of(words.begin(), words.begin() + std::min<std::ptrdiff_t>(std::ssize(words), 2),
                      is_number);
@@ -198,10 +183,6 @@ bool are_understood(const std::string& suite, const std::vector<std::string>& wo
 int main(int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   verbose = std::erase(words, "-v") > 0;
-  if (!words.empty() && words.front() == "--corrupted") {
-    if (cluster::crew().leads()) score_corrupted({words.begin() + 1, words.end()});
-    return 0;
-  }
   const std::string all = fmt::format("{}", fmt::join(words, " "));
   const std::string suite = !words.empty() && words.front().starts_with("--") ? words.front() : "";
   if (!suite.empty()) words.erase(words.begin());
@@ -218,8 +199,14 @@ int main(int argc, char** argv) {
     if (cluster::crew().leads()) diagnose::score_pairs(first, number(1, 1), cluster::crew().threads);
     return 0;
   }
+  const std::string wanted = words.size() > 2 ? words[2] : "";
+  if (suite == "--corrupted") {
+    diagnose::Asked asked{};
+    if (verbose) asked.say = [](const std::string& what) { fmt::print("{}\n", what); };
+    if (cluster::crew().leads()) diagnose::score_corrupted(asked, first, seeds, wanted);
+    return 0;
+  }
   try {
-    const std::string wanted = words.size() > 2 ? words[2] : "";
     score_all(suite == "--nulls"        ? diagnose::nulls(first, seeds, wanted)
               : suite == "--off-sheet"  ? diagnose::off_sheet(first, seeds, wanted)
               : suite == "--other-laws" ? diagnose::other_laws(first, seeds, wanted)

@@ -30,16 +30,18 @@ inline std::vector<domain::CampaignCurrent> three_kinds() {
   return {{"sine", 5.0, sine}, {"stair", 5.0, stair}, {"triangle", 5.0, triangle}};
 }
 
+inline constexpr plant::Noise still_air{.encoder_jitter = 5e-5, .gauge_Pa = 400.0};
+
 /// Each load under each current, runs r01, r02 and so on (loads in order, for each all currents). With a
 /// gauge if `truth` has one. The data set's rig is `nominal`.
 inline domain::Dataset planted(const plant::Rig& truth, std::vector<double> loads_kg,
                                std::vector<domain::CampaignCurrent> currents, std::uint64_t seed,
-                               const plant::Rig& nominal = {}, double jitter = 5e-5) {
+                               const plant::Rig& nominal = {}, const plant::Noise& noise = still_air) {
   domain::Campaign campaign;
   campaign.rig = truth;
   campaign.loads_kg = std::move(loads_kg);
   campaign.currents = std::move(currents);
-  campaign.noise = {.encoder_jitter = jitter, .gauge_Pa = 400.0};
+  campaign.noise = noise;
   campaign.seed = seed;
   domain::Dataset data;
   data.rig = nominal;
@@ -61,11 +63,12 @@ inline std::vector<std::vector<bool>> nothing_masked(const domain::Dataset& data
 }
 
 /// Six runs of four seconds, enough for a whole diagnosis: three loads, the middle one held out.
-inline domain::Dataset small(const plant::Rig& truth, double duration_s = 4.0) {
+inline domain::Dataset small(const plant::Rig& truth, double duration_s = 4.0,
+                             const plant::Noise& noise = still_air) {
   auto currents = three_kinds();
   currents.pop_back();
   for (auto& current : currents) current.duration_s = duration_s;
-  return planted(truth, {11.138, 16.138, 23.406}, currents, 7);
+  return planted(truth, {11.138, 16.138, 23.406}, currents, 7, {}, noise);
 }
 
 }  // namespace mckibben::diagnose

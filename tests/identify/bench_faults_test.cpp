@@ -81,6 +81,19 @@ TEST(HandedOver, TwoFaultsOfTheBenchAndNoThird) {
   EXPECT_TRUE(found.effects.empty());
 }
 
+// A wide error predicts unseen runs as well without it, and as none of them has the fault.
+TEST(HandedOver, ASmallZeroOfOneRunWhereTheSupplyRipples) {
+  plant::Noise rippled = diagnose::still_air;
+  rippled.ripple_Pa = 400.0;
+  domain::Dataset data = diagnose::small({}, 4.0, rippled);
+  for (double& ratio : data.runs[2].readings[0].values) ratio += 0.0017;
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 1U) << found.because;
+  EXPECT_EQ(found.bench[0].name, "zeros_differ");
+  EXPECT_EQ(found.bench[0].runs, std::vector<std::string>{"r03"});
+  EXPECT_EQ(found.verdict, Verdict::nothing_missing) << found.because;
+}
+
 // One recorder has the encoder and the gauge: taken for the encoder's alone, the gauge forbade a delay.
 TEST(HandedOver, ARunWhoseReadingsAreAllLate) {
   plant::Rig truth;

@@ -118,6 +118,14 @@ TEST(Decide, NamesNoMoreThanTheMostProbableForPredictingBetter) {
   EXPECT_EQ(decide({model({"gauge_error"}, 0.0, 0.0), more}).chosen, 1U);  // as many
 }
 
+TEST(Decide, HoldsToAFaultOfOneRunThatSaysNothingOfOthers) {
+  Scored zero = described(25.0, 0.0);
+  zero.names = zero.faults = {"zeros_differ"};
+  EXPECT_EQ(decide({described(0.0, 0.0), zero}).chosen, 1U);
+  zero.score = 2.0;  // no strong evidence
+  EXPECT_EQ(decide({described(0.0, 0.0), zero}).chosen, 0U);
+}
+
 TEST(Decide, AsDescribedIsTheSimplest) {
   EXPECT_EQ(decide({described(-4.0, 0.0), model({}, 0.0, 0.0)}).verdict, Verdict::nothing_missing);
 }
