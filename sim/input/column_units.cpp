@@ -44,7 +44,7 @@ void to_ratio(std::vector<double>& values, const std::string& unit, const plant:
 }
 
 /// The unit at the end of a heading, as in t_ms, `p [kPa]`; empty if none can be told.
-std::string unit_in_heading(std::string_view heading, const domain::Quantity& quantity) {
+std::string unit_at_end(std::string_view heading) {
   const bool closed = heading.ends_with(']') || heading.ends_with(')');
   std::size_t from = heading.find_last_of(closed ? "[(" : "_");
   if (heading.ends_with("))") && from != std::string_view::npos && from > 0)  // of psi(g)
@@ -52,9 +52,14 @@ std::string unit_in_heading(std::string_view heading, const domain::Quantity& qu
   if (from == std::string_view::npos || from == 0) return "";
   std::string_view unit = heading.substr(from + 1);
   if (closed) unit.remove_suffix(1);
-  // A bare letter behind _ may be anything, but for seconds of a time.
-  if (!closed && unit.size() < 2 && !(quantity.key == "time" && unit == "s")) return "";
   return unit_word(unit);
+}
+
+/// A bare letter behind _ may be anything, but for seconds of a time.
+std::string unit_in_heading(std::string_view heading, const domain::Quantity& quantity) {
+  std::string unit = unit_at_end(heading);
+  const bool closed = heading.ends_with(']') || heading.ends_with(')');
+  return !closed && unit.size() < 2 && !(quantity.key == "time" && unit == "s") ? "" : unit;
 }
 
 /// Whether a heading that says a unit of another kind means it: in brackets, or volts and amperes of a
@@ -81,6 +86,11 @@ std::string problem_of(const domain::Quantity& quantity, const std::string& unit
 }
 
 }  // namespace
+
+std::string fitting_unit(std::string_view heading, const domain::Quantity& quantity) {
+  std::string unit = unit_at_end(heading);
+  return unit.empty() || !problem_of(quantity, unit).empty() ? std::string(quantity.unit()) : unit;
+}
 
 const domain::Quantity* named_quantity(std::string_view column, const ColumnMap& map,
                                        plant::CommandUnit commands) {

@@ -19,6 +19,9 @@ using domain::ColumnMap, domain::ColumnPlace, domain::line_of;
 const domain::Quantity* named_quantity(std::string_view column, const ColumnMap& map,
                                        plant::CommandUnit commands);
 
+/// The unit that a heading says, as in U_mA, `I [A]` or t(ms); ours if there is none that fits.
+std::string fitting_unit(std::string_view heading, const domain::Quantity& quantity);
+
 /// Checks the units of a map, and that no input is called a reading; `map` is the value of `columns`.
 void check_units(const Source& source, const Node& map, Problems& problems);
 
