@@ -4,6 +4,7 @@
 // new one holds.
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <numbers>
@@ -49,8 +50,8 @@ struct Stiffness {
 
 /// Catches "30" written for "30 mm".
 void check_height(auto& report, std::string_view key, const Height& height) {
-  if (!height.in_metres && (height.value < 0.0 || height.value >= 1.0))
-    report(key, "a contraction ratio lies between 0 and 1; a length needs its unit");
+  if (!height.in_metres && (std::abs(height.value) >= 1.0))
+    report(key, "a contraction ratio lies between -1 and 1; a length needs its unit");
 }
 /// Their units and ranges are checked as they are read.
 template <class Report>

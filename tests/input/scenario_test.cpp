@@ -118,6 +118,18 @@ TEST(Scenario, WarnsOfRisk) {
   EXPECT_NE(warnings[0].message.find("risk to the muscle (T 2.3)"), std::string::npos);
 }
 
+TEST(Scenario, WarnsOfTargetsBelowZeroInBothUnits) {
+  for (const char* const below : {"to: -0.01", "to: -3 mm"}) {
+    std::string text = good_scenario;
+    const std::string height = "to: 0.05";
+    text.replace(text.find(height), height.size(), below);
+    std::vector<Problem> warnings;
+    read_text(text, &warnings);
+    ASSERT_EQ(warnings.size(), 1u) << below;
+    EXPECT_NE(warnings[0].message.find("contraction ratio of -0.01; below 0"), std::string::npos);
+  }
+}
+
 TEST(Scenario, WarnsOfMovesThatAreNeverMade) {
   std::string text = good_scenario;
   const std::string duration = "duration: ";
