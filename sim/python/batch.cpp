@@ -36,7 +36,9 @@ std::vector<plant::Rig> rigs_of(const py::object& rigs, std::size_t count) {
 
 }  // namespace
 
-Batch::Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads) : threads_(threads) {
+Batch::Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads,
+             const std::optional<Numbers>& jitter)
+    : threads_(threads) {
   if (loads_kg.ndim() > 1) throw py::value_error("loads_kg has the shape (n,)");
   const auto loads = static_cast<std::size_t>(loads_kg.size());
   const std::vector<plant::Rig> files = rigs_of(rigs, loads);
@@ -49,6 +51,7 @@ Batch::Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads) 
     members_.push_back({hung(files[i], loads_kg.data()[of], fmt::format("loads_kg[{}]", of))});
     require_alike(files[i]);
   }
+  if (jitter) set_jitter(*jitter);
   start(std::nullopt);
 }
 
@@ -63,12 +66,15 @@ void Batch::start(const std::optional<Numbers>& command) {
 }
 
 void Batch::restart(const std::vector<std::size_t>& which, const py::object& rigs,
-                    const std::optional<Numbers>& loads_kg, const std::optional<Numbers>& command) {
+                    const std::optional<Numbers>& loads_kg, const std::optional<Numbers>& command,
+                    const std::optional<Numbers>& jitter) {
   const Turn turn(busy_);
   require_whole();
   const std::vector<double> commands = command ? all(*command) : zeros();
   if (loads_kg && static_cast<std::size_t>(loads_kg->size()) != which.size())
     throw py::value_error("loads_kg: one for each rig that begins again");
+  if (jitter && static_cast<std::size_t>(jitter->size()) != which.size())
+    throw py::value_error("jitter: one for each rig that begins again");
   std::vector<plant::Rig> files;
   if (!rigs.is_none()) files = rigs_of(rigs, which.size());
   if (!files.empty() && files.size() != which.size())
@@ -85,6 +91,7 @@ void Batch::restart(const std::vector<std::size_t>& which, const py::object& rig
     require_alike(rig);
     others.push_back(
         {hung(rig, loads_kg ? loads_kg->data()[i] : now.hung.load_kg, fmt::format("loads_kg[{}]", i))});
+    others.back().jitter = jitter ? jitter->data()[i] : now.jitter;
   }
   const py::gil_scoped_release released;
   for (std::size_t i = 0; i < which.size(); ++i) {
@@ -140,7 +147,8 @@ py::tuple Batch::pickled() const {
     py::object& rig = rigs[fields_of(member.hung.rig)];
     if (!rig) rig = py::cast(Rig{member.hung.rig});
     const ride::VectorRide::Saved saved = parts_[member.part].rides->save(member.place);
-    all.append(py::make_tuple(rig, member.hung.load_kg, bytes_of(saved, *member.counter, member.counts)));
+    all.append(py::make_tuple(rig, member.hung.load_kg,
+                              bytes_of(saved, *member.counter, member.counts, member.jitter)));
   }
   return py::make_tuple(all, bytes_of(threads_, ticks_, whole_));
 }
@@ -156,7 +164,7 @@ std::unique_ptr<Batch> Batch::unpickled(const py::tuple& state) {
     std::vector<ride::VectorRide::Saved> saved(part.rigs.size());
     for (std::size_t place = 0; place < part.rigs.size(); ++place) {
       Member& member = batch->members_[part.rigs[place]];
-      read_bytes(all[part.rigs[place]][2], saved[place], *member.counter, member.counts);
+      read_bytes(all[part.rigs[place]][2], saved[place], *member.counter, member.counts, member.jitter);
     }
     part.rides->resume(saved, batch->now_s());
   }
@@ -320,6 +328,9 @@ void Batch::step(Part& part, std::span<const double> commands, long k) {
   for (std::size_t place = 0; place < part.rigs.size(); ++place) {
     if (part.rigs[place] == nobody) continue;
     Member& member = members_[part.rigs[place]];
+    const plant::Sensor& sensor = member.hung.rig.sensors.position();
+    // What a slow sensor shows goes on, with its jitter; the first reading is one that settles.
+    if (k >= ticks_ && sensor.taken_s(time_s(k + 1)) == sensor.taken_s(time_s(k))) continue;
     member.counts = member.counter->count(part.rides->rider(place).now.reading.wheel_m +
                                           member.jitter * member.hung.rig.muscle.rest_length_m);
   }

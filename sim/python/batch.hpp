@@ -18,12 +18,14 @@ namespace mckibben::python {
 class Batch {
  public:
   /// Settled at 0 s, no pressure asked for. Throws py::value_error for rigs that do not go together.
-  Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads);
+  Batch(const py::object& rigs, const Numbers& loads_kg, unsigned threads,
+        const std::optional<Numbers>& jitter);
 
   void start(const std::optional<Numbers>& command);
   /// These begin again, others go on.
   void restart(const std::vector<std::size_t>& which, const py::object& rigs,
-               const std::optional<Numbers>& loads_kg, const std::optional<Numbers>& command);
+               const std::optional<Numbers>& loads_kg, const std::optional<Numbers>& command,
+               const std::optional<Numbers>& jitter);
   void step(const Numbers& command);
   /// Ctrl-C ends it; its rigs are then at different instants, and must be started again.
   py::dict follow(const Numbers& command, const py::object& progress);

@@ -43,21 +43,24 @@ void add_batch(py::module_& module) {
     return *commands;
   };
   const auto loads_of = [](Any loads_kg) { return numbers_of(loads_kg, "loads_kg", "kg"); };
+  const auto jitter_of = [](Any ratios) { return numbers_of(ratios, "jitter", "a contraction ratio"); };
   py::class_<Batch>(module, "Batch",
                     "Many rigs with a load each, stepped together, each under its own command.")
       .def(py::pickle([](const Batch& batch) { return batch.pickled(); }, &Batch::unpickled))
-      .def(py::init([loads_of](Any rigs, Any loads_kg, Threads threads) {
-             const auto loads = loads_of(loads_kg);
-             if (!loads) throw py::type_error("loads_kg is missing");
-             return std::make_unique<Batch>(rigs, *loads, threads.number);
-           }),
-           py::arg("rigs"), py::arg("loads_kg"), py::arg("threads") = Threads{1},
-           "One Rig (or what makes one) with a load [kg] each, shape (n,), or a list of n rigs with one "
-           "muscle "
-           "and the same tick. Eight rigs go through the laws at once where they can; what becomes of one "
-           "depends neither on the others nor on threads, to the bit. They stand settled at 0 s, the valves "
-           "at "
-           "the lower ends of their lines.")
+      .def(
+          py::init([loads_of, jitter_of](Any rigs, Any loads_kg, Threads threads, Any jitter) {
+            const auto loads = loads_of(loads_kg);
+            if (!loads) throw py::type_error("loads_kg is missing");
+            return std::make_unique<Batch>(rigs, *loads, threads.number, jitter_of(jitter));
+          }),
+          py::arg("rigs"), py::arg("loads_kg"), py::arg("threads") = Threads{1}, py::kw_only(),
+          py::arg("jitter") = py::none(),
+          "One Rig (or what makes one) with a load [kg] each, shape (n,), or a list of n rigs with one "
+          "muscle "
+          "and the same tick. Eight rigs go through the laws at once where they can; what becomes of one "
+          "depends neither on the others nor on threads, to the bit. They stand settled at 0 s, the valves "
+          "at "
+          "the lower ends of their lines. Readings are without the noise of the rigs' sensors; see `jitter`.")
       .def(
           "start",
           [some](Batch& batch, Any command, Any current_mA) {
@@ -75,13 +78,15 @@ void add_batch(py::module_& module) {
           "in `failures`; the others go on.")
       .def(
           "restart",
-          [some, loads_of](Batch& batch, Any which, Any rigs, Any loads_kg, Any command) {
-            batch.restart(places_of(which), rigs, loads_of(loads_kg), some(batch, command, py::none()));
+          [some, loads_of, jitter_of](Batch& batch, Any which, Any rigs, Any loads_kg, Any command,
+                                      Any jitter) {
+            batch.restart(places_of(which), rigs, loads_of(loads_kg), some(batch, command, py::none()),
+                          jitter_of(jitter));
           },
           py::arg("which"), py::arg("rigs") = py::none(), py::arg("loads_kg") = py::none(),
-          py::arg("command") = py::none(),
+          py::arg("command") = py::none(), py::kw_only(), py::arg("jitter") = py::none(),
           "Those of these indices begin again and are settled now, the others go on as they were. `rigs`, "
-          "`loads_kg`: in place of theirs, one for each; `command`: one or n, of all the batch.")
+          "`loads_kg`, `jitter`: in place of theirs, one for each; `command`: one or n, of all the batch.")
       .def(
           "follow",
           [given](Batch& batch, Any command, Any progress, Any current_mA) {
@@ -96,8 +101,8 @@ void add_batch(py::module_& module) {
                              "As the encoders count it [1], shape (n,).")
       .def_property(
           "jitter", &Batch::jitter,
-          [](Batch& batch, Any ratios) {
-            if (const auto all = numbers_of(ratios, "jitter", "a contraction ratio")) batch.set_jitter(*all);
+          [jitter_of](Batch& batch, Any ratios) {
+            if (const auto all = jitter_of(ratios)) batch.set_jitter(*all);
           },
           "Of each, as a single one has it; set by one number, or n.")
       .def_property_readonly(

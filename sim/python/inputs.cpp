@@ -15,6 +15,7 @@
 #include <sim/python/dicts.hpp>
 #include <sim/python/inputs.hpp>
 #include <sim/python/pickles.hpp>
+#include <sim/run/drawn_noise.hpp>
 #include <sim/run/simulate.hpp>
 #include <sim/run/track.hpp>
 
@@ -257,6 +258,7 @@ void add_inputs(py::module_& module) {
                                   valve.span_command);
           },
           "The same of a valve that takes mA.")
+      .def_property_readonly("_position_noise", [](const Rig& rig) { return run::position_noise(rig.file); })
       .def(
           "_beyond_e_max",
           [](const Rig& rig, double ratio) {

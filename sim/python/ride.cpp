@@ -42,8 +42,9 @@ Given lowest(const plant::Rig& rig) {
 
 }  // namespace
 
-Ride::Ride(const py::object& rig, std::optional<double> load_kg)
-    : rig_(std::make_shared<const plant::Rig>(rig_of(rig).file)),
+Ride::Ride(const py::object& rig, std::optional<double> load_kg, double shaken)
+    : jitter(shaken),
+      rig_(std::make_shared<const plant::Rig>(rig_of(rig).file)),
       load_kg_(load_kg),
       ride_(ride_of(*rig_, load_kg)),
       counter_(*rig_) {
@@ -51,7 +52,8 @@ Ride::Ride(const py::object& rig, std::optional<double> load_kg)
 }
 
 Ride::Ride(const Ride& other)
-    : rig_(other.rig_),
+    : jitter(other.jitter),
+      rig_(other.rig_),
       load_kg_(other.load_kg_),
       ride_(other.ride_),
       counter_(other.counter_),
@@ -85,10 +87,11 @@ Shown Ride::step(const Given& given, std::optional<double> dt_s) {
   drive_ = with(given, drive_);
   const py::gil_scoped_release released;
   if (dt_s) {
-    begin_s_ = ride_.time_s() + *dt_s;
+    const double before_s = ride_.time_s();
+    begin_s_ = before_s + *dt_s;
     ticks_ = 0;
     ride_.step(drive_, begin_s_);
-    look();
+    look_since(before_s);
   } else {
     advance();
   }
@@ -118,11 +121,12 @@ Simulated Ride::follow(const Commands& command, const std::optional<Commands>& o
       if (run::interrupted()) throw run::Interrupted();
       drive_.current_mA = one[k];
       if (two != nullptr) drive_.opposite.current_mA = two[k];
+      const double before_s = ride_.time_s();
       ride_.hold(drive_, time_after(1));
       recording->take(ride::sample_of(ride_.rider(), counts_));
       ride_.advance();
       ++ticks_;
-      look();
+      look_since(before_s);
     }
   });
   recording->solver = ride_.counters();
@@ -131,7 +135,7 @@ Simulated Ride::follow(const Commands& command, const std::optional<Commands>& o
 
 Ride::Saved Ride::save() const {
   const Turn turn(busy_);
-  return {rig_, ride_.save(), counter_, drive_, begin_s_, ticks_, counts_};
+  return {rig_, ride_.save(), counter_, drive_, begin_s_, ticks_, counts_, jitter};
 }
 
 void Ride::restore(const Saved& saved) {
@@ -144,6 +148,7 @@ void Ride::restore(const Saved& saved) {
   begin_s_ = saved.begin_s;
   ticks_ = saved.ticks;
   counts_ = saved.counts;
+  jitter = saved.jitter;
 }
 
 engine::Linear Ride::linearise() const {
@@ -198,9 +203,18 @@ ride::Drive Ride::with(const Given& given, const ride::Drive& before) const {
 }
 
 void Ride::advance() {
+  const double before_s = ride_.time_s();
   ride_.step(drive_, time_after(1));
   ++ticks_;
-  look();
+  look_since(before_s);
+}
+
+void Ride::look() {
+  counts_ = counter_.count(ride_.reading().wheel_m + jitter * rig_->muscle.rest_length_m);
+}
+void Ride::look_since(double before_s) {
+  const plant::Sensor& sensor = rig_->sensors.position();
+  if (sensor.taken_s(ride_.time_s()) != sensor.taken_s(before_s)) look();
 }
 
 }  // namespace mckibben::python

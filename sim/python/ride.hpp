@@ -32,7 +32,7 @@ class Ride {
 
   /// Settled at 0 s, no pressure asked for. Throws py::value_error without a load, or with one on two
   /// muscles.
-  Ride(const py::object& rig, std::optional<double> load_kg);
+  Ride(const py::object& rig, std::optional<double> load_kg, double jitter = 0.0);
   Ride(const Ride& other);
 
   void start(const Given& given, double at_s, bool settle);
@@ -49,6 +49,7 @@ class Ride {
     double begin_s;
     long ticks;
     std::int64_t counts;
+    double jitter;
   };
   Saved save() const;
   /// Throws py::value_error if it is of another rig.
@@ -63,12 +64,14 @@ class Ride {
   std::optional<double> load_kg() const { return load_kg_; }
   plant::CommandUnit command_unit() const { return rig_->command_unit(); }
 
-  double jitter = 0.0;  ///< of the position that is counted after a step, as a contraction ratio
+  double jitter;  ///< of the position that is counted after a step, as a contraction ratio
 
  private:
   ride::Drive with(const Given& given, const ride::Drive& before) const;
   void advance();
-  void look() { counts_ = counter_.count(ride_.reading().wheel_m + jitter * rig_->muscle.rest_length_m); }
+  void look();
+  /// Unless the sensor shows the reading that it showed then.
+  void look_since(double before_s);
   double time_after(long ticks) const {
     return begin_s_ + static_cast<double>(ticks_ + ticks) * rig_->tick_s;
   }

@@ -67,8 +67,9 @@ void add_linear(py::module_& module) {
 }
 
 py::tuple pickled_ride(const Ride::Saved& saved) {
-  return py::make_tuple(Rig{*saved.rig}, bytes_of(saved.ride.rider, saved.ride.pace, saved.counter,
-                                                  saved.drive, saved.begin_s, saved.ticks, saved.counts));
+  return py::make_tuple(Rig{*saved.rig},
+                        bytes_of(saved.ride.rider, saved.ride.pace, saved.counter, saved.drive, saved.begin_s,
+                                 saved.ticks, saved.counts, saved.jitter));
 }
 
 Ride::Saved unpickled_ride(const py::tuple& state) {
@@ -78,9 +79,10 @@ Ride::Saved unpickled_ride(const py::tuple& state) {
                     {},
                     0.0,
                     0,
-                    0};
+                    0,
+                    0.0};
   read_bytes(state[1], saved.ride.rider, saved.ride.pace, saved.counter, saved.drive, saved.begin_s,
-             saved.ticks, saved.counts);
+             saved.ticks, saved.counts, saved.jitter);
   return saved;
 }
 
@@ -137,12 +139,13 @@ void add_rides(py::module_& module) {
       .def("__copy__", copy)
       .def(
           "__deepcopy__", [copy](const Ride& ride, const py::dict&) { return copy(ride); }, py::arg("memo"))
-      .def(py::init([](const py::object& rig, const py::object& load_kg) {
-             return std::make_unique<Ride>(rig, number_of(load_kg, "load_kg", "kg"));
+      .def(py::init([](const py::object& rig, const py::object& load_kg, double jitter) {
+             return std::make_unique<Ride>(rig, number_of(load_kg, "load_kg", "kg"), jitter);
            }),
-           py::arg("rig") = "thesis", py::arg("load_kg") = py::none(),
+           py::arg("rig") = "thesis", py::arg("load_kg") = py::none(), py::kw_only(), py::arg("jitter") = 0.0,
            "A Rig, or what makes one, with a load [kg] on it; none on two muscles. It stands settled at 0 s, "
-           "its valves at the lower ends of their lines.")
+           "its valves at the lower ends of their lines. Its readings are without the noise of the rig's "
+           "sensors: that of the position is yours to draw, see `jitter`.")
       .def(
           "start",
           [given](Ride& ride, Any command, Any opposite_command, Any muscle_pressure_Pa,

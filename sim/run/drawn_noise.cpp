@@ -14,14 +14,17 @@ using plant::Sensed;
 plant::BySensed noise_of_sensors(const plant::Noise& noise, const plant::Rig& rig) {
   plant::BySensed sizes;
   for (const plant::Sensor& sensor : rig.sensors) sizes[sensor.signal] = sensor.noise;
-  const plant::Sensor& position = rig.sensors.position();
-  const double rise_m = position.noise * position.rise_m(rig.joint.wheel_radius_m);
-  sizes[Sensed::contraction] = std::hypot(noise.encoder_jitter, rise_m / rig.muscle.rest_length_m);
+  sizes[Sensed::contraction] = std::hypot(noise.encoder_jitter, position_noise(rig));
   sizes[Sensed::muscle_pressure] = std::hypot(noise.gauge_Pa, sizes[Sensed::muscle_pressure]);
   return sizes;
 }
 
 }  // namespace
+
+double position_noise(const plant::Rig& rig) {
+  const plant::Sensor& position = rig.sensors.position();
+  return position.noise * position.rise_m(rig.joint.wheel_radius_m) / rig.muscle.rest_length_m;
+}
 
 DrawnNoise::DrawnNoise(const plant::Noise& noise, const plant::Rig& rig, std::uint64_t seed,
                        std::uint64_t stream)

@@ -9,6 +9,9 @@
 
 namespace mckibben::run {
 
+/// What the data sheet of the position's sensor says of its noise, as a contraction ratio, rms.
+double position_noise(const plant::Rig& rig);
+
 /// Draws the noise of one run: the same for the same seed and stream, whatever runs beside it.
 class DrawnNoise {
  public:

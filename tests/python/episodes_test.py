@@ -1,4 +1,5 @@
 """What becomes of an episode: a recording that replays, a scenario that others control."""
+import copy
 import unittest
 
 import numpy
@@ -53,6 +54,9 @@ class Episodes(unittest.TestCase):
             self.assertAlmostEqual(noise, 0.002 / (per or env.episode.rad))
             noise = env.scenario([{"kind": "pid"}], noise={"encoder_jitter": 0.0}).to_dict()["noise"]
             self.assertEqual(noise["encoder_jitter"], 0.0)
+            noise = env.scenario([{"kind": "pid"}], noise={"gauge": "1 mbar"}).to_dict()["noise"]
+            self.assertAlmostEqual(noise["encoder_jitter"], 0.002 / (per or env.episode.rad))
+            self.assertEqual(noise["gauge"], "100 Pa")
 
     def test_what_is_shaken_is_counted_after(self):
         one, many = mckibben.Env(duration_s=1.2, jitter=0.002), mckibben.VectorEnv(2, duration_s=1.2, jitter=0.002)
@@ -64,6 +68,51 @@ class Episodes(unittest.TestCase):
         numpy.testing.assert_allclose(read / per_count, numpy.round(read / per_count), atol=1e-6)
         self.assertTrue(0.001 < numpy.std(read - true) < 0.003, numpy.std(read - true))
         numpy.testing.assert_allclose(many.episodes[0].history["contraction_ratio"], read, atol=1e-12)
+
+    def test_sensors_have_their_noise(self):
+        laser = {"signal": "contraction", "kind": "laser", "resolution": "10 um", "highest": "80 mm"}
+        noisy = {"sensors": [{**laser, "noise": "3 mm"}]}
+
+        def scatter(env, action):
+            env.reset(seed=1)
+            true = [env.step(action)[4]["true_contraction_ratio"] for _ in range(99)]
+            return env.history["contraction_ratio"] - true
+
+        env = mckibben.Env(noisy, duration_s=1.2)
+        one = scatter(env, [0.0])
+        self.assertTrue(0.008 < one.std() < 0.012, one.std())  # 3 mm of 300 mm
+        run = env.scenario([{"kind": "pid"}]).run()[0]
+        self.assertTrue(0.8 < one.std() / (run["encoder_contraction_ratio"] - run["contraction_ratio"]).std() < 1.25)
+        both = scatter(mckibben.Env(noisy, duration_s=1.2, jitter=0.01), [0.0])
+        self.assertAlmostEqual(both.std() / one.std(), 2.0**0.5, delta=0.05)
+        self.assertGreater(len({env.reset(seed=seed)[0][0] for seed in range(5)}), 3, "the first reading scatters, too")
+
+        quiet, slow = {"sensors": [laser]}, {"sensors": [{**laser, "noise": "3 mm", "rate": "10 Hz"}]}
+        many = [mckibben.VectorEnv(9, [noisy, quiet], duration_s=1.2, threads=threads) for threads in (1, 2)]
+        rows = [[envs.reset(seed=1)[0], *(envs.step(numpy.zeros((9, 1)))[0] for _ in range(60))] for envs in many]
+        numpy.testing.assert_array_equal(*rows)
+        for member in many[0].episodes:
+            has_noise = member.rig == mckibben.Rig(noisy)
+            self.assertEqual(numpy.diff(member.history["contraction_ratio"], 2).std() > 0.005, has_noise)
+        alone = mckibben.Env([noisy, quiet], duration_s=1.2)
+        alone.reset(seed=4)
+        for _ in range(60):
+            alone.step([0.0])
+        numpy.testing.assert_allclose(many[0].episodes[3].history["contraction_ratio"], alone.history["contraction_ratio"], atol=1e-4)
+
+        copied = copy.deepcopy(env)
+        self.assertEqual([env.step([0.1])[0].tolist() for _ in range(9)], [copied.step([0.1])[0].tolist() for _ in range(9)])
+        for held in (mckibben.Env(slow, duration_s=1.2), mckibben.VectorEnv(2, slow, duration_s=1.2)):
+            held.reset(seed=1)
+            read = [held.step(numpy.zeros(held.action_space.shape))[0].flat[0] for _ in range(60)]
+            self.assertTrue(5 <= numpy.count_nonzero(numpy.diff(read)) <= 9, "a reading is shown until the next")
+
+        turned = {"base": "thesis_pair", "sensors": [{"signal": "contraction", "kind": "potentiometer",
+                                                      "resolution": "0.001 deg", "noise": "1 deg"}]}
+        pair = mckibben.Env(turned, duration_s=1.2)
+        pair.reset(seed=1)
+        true = [pair.step([0.0, 0.0])[4]["true_angle_rad"] for _ in range(99)]
+        self.assertTrue(0.8 < numpy.degrees((pair.history["angle_rad"] - true).std()) < 1.2)
 
     def test_a_subclass_has_its_own_reward_and_end(self):
         class Squares(mckibben.env.Rules):

@@ -136,7 +136,7 @@ class Rides(unittest.TestCase):
                            (r"which = \[True, False\]: must be indices of rigs", lambda: mckibben.Batch("thesis", [8.0, 9.0]).restart([True, False])),
                            (r"which = 0: must be indices", lambda: mckibben.Batch("thesis", 8.0).restart(0)),
                            ("rig = 3: must be a name", lambda: mckibben.Batch(["thesis", 3], 8.0)),
-                           ("^Ride: load is no argument; did you mean load_kg[?] There are rig, load_kg$", lambda: mckibben.Ride(load=8.0)),
+                           ("^Ride: load is no argument; did you mean load_kg[?] There are rig, load_kg, jitter$", lambda: mckibben.Ride(load=8.0)),
                            ("^Ride.step: until_s is no argument; did you mean dt_s[?] There are command, dt_s, opposite_command", lambda: ride.step(9.0, until_s=1.0)),
                            ("^Dataset: path is no argument; there are source, folder$", lambda: mckibben.Dataset(path="x")),
                            ("^Ride.save: into is no argument; there are none$", lambda: ride.save(into="x"))):

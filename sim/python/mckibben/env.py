@@ -86,7 +86,7 @@ class Env(Rules, Base):
         pair from -15 to 15 deg. `loads_kg`: a load, or two between which each episode draws its
         own; if left out, three quarters to one and a half of `usual_load_kg` of the episode's rig.
         `jitter`: root mean square of what shakes the position before it is counted, as a contraction ratio [1] or an
-        angle [rad].
+        angle [rad], with the noise that the rig's sensor has.
         Nothing is rendered: plot `history`. Raises InputError, ValueError."""
         _no_rendering(render_mode)
         self.task = Task(rig, loads_kg, target, duration_s, jitter)
@@ -134,14 +134,14 @@ class Env(Rules, Base):
         return self.episode.target if self.episode else self.task.fixed
 
     def reset(self, *, seed=None, options=None):
-        """A new episode: (observation, info). `seed` decides its rig, target, load and jitter; `options` may say
+        """A new episode: (observation, info). `seed` decides its rig, target, load, jitter and noise; `options` may say
         {"load_kg": ...}. The same seed, the same episode; in a VectorEnv it agrees within the solver's tolerance, so that
         a count may differ."""
         options = options_of(options)
         self.task.check(options, seed)
         super().reset(seed=None if seed is None else int(seed))  # Gymnasium takes no whole number of NumPy's
         episode = Episode(self.task, self.np_random, options)
-        self.ride, self.episode = Ride(episode.rig, load_kg=episode.load_kg), episode
+        self.ride, self.episode = Ride(episode.rig, load_kg=episode.load_kg, jitter=episode.shake()), episode
         self.ended = False
         return self.task.observation(self.episode.begin(self._counted())), dict(self.episode.info)
 
@@ -325,12 +325,12 @@ class VectorEnv(Rules, VectorBase):
     def _begin(self, which, options, infos):
         """New episodes of these members; all observations."""
         begun = [Episode(self.task, self.random[i], options[i]) for i in which]
-        rigs, loads_kg = [one.rig for one in begun], [one.load_kg for one in begun]
+        rigs, loads_kg, jitter = zip(*((one.rig, one.load_kg, one.shake()) for one in begun))
         if len(which) == self.num_envs:
-            self.batch = Batch(rigs, loads_kg, self.threads)
+            self.batch = Batch(rigs, loads_kg, self.threads, jitter=jitter)
             self.observations = numpy.zeros(self.observation_space.shape, dtype=numpy.float32)
         else:
-            self.batch.restart(which, rigs, loads_kg)
+            self.batch.restart(which, rigs, loads_kg, jitter=jitter)
         for i, one in zip(which, begun):
             self.episodes[i] = one
         counted = self.batch.contraction_ratio.tolist()

@@ -219,12 +219,14 @@ class Episode:
             self.middle, length_m, radius_m = (float(str(value).split()[0]) for value in (
                 keys["mechanics"]["contraction_1"], keys["muscle"]["rest_length"], keys["joint"]["wheel_radius"]))
             self.rad = length_m / radius_m
+        self.shaken = math.hypot(self.jitter_ratio(), self.rig._position_noise)  # as a scenario has both
         self.info = {"time_s": 0.0} if task.pair else {"load_kg": self.load_kg, "time_s": 0.0}
 
     def scenario(self, controllers, **keys):
         """The same rig, load, target, time and jitter for these controllers."""
-        if self.task.jitter:
-            keys = {"noise": {"encoder_jitter": self.jitter_ratio()}, **keys}
+        noise = keys.get("noise", {})
+        if self.task.jitter and isinstance(noise, dict):
+            keys = {**keys, "noise": {"encoder_jitter": self.jitter_ratio(), **noise}}
         return self.task.scenario(self.rig, [self.load_kg], self.wish, controllers, **keys)
 
     def columns(self):
@@ -235,9 +237,7 @@ class Episode:
         return {"columns": {"angle": {"column": "angle_rad", "unit": "count", "factor": 1.0 / per_count}}}
 
     def begin(self, counted):
-        per_count = self.rig.contraction_per_count  # counted already, so shaken by whole counts
-        shaken = per_count * round(self.shake() / per_count)
-        self.last = self.at_rest = counted + shaken * (self.rad if self.task.pair else 1.0)
+        self.last = self.at_rest = counted
         self.rows = []
         return self.seen(0.0)
 
@@ -295,7 +295,7 @@ class Episode:
 
     def shake(self):
         """By what the position is off that is counted next, as a contraction ratio."""
-        return self.jitter_ratio() * self.random.standard_normal() if self.task.jitter else 0.0
+        return self.shaken * self.random.standard_normal() if self.shaken else 0.0
 
     def jitter_ratio(self):
         return self.task.jitter / (self.rad if self.task.pair else 1.0)
