@@ -1,8 +1,10 @@
 // Formatting, ordering and throwing of input problems; see the header.
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <map>
+#include <ranges>
 #include <string_view>
 #include <tuple>
 
@@ -15,7 +17,7 @@ namespace mckibben::input {
 namespace {
 
 // A file of garbage must not drown the reader, nor memory.
-constexpr std::size_t most_shown = 100;
+constexpr std::size_t most_shown = 100, most_alike = 20;  // as of a table
 constexpr std::size_t longest_line_shown = 400, longest_message = 1000;
 
 /// Blanks as wide as the characters before `column`; tabs stay tabs, so the caret meets its character.
@@ -29,6 +31,19 @@ std::string padding(const std::string& line, std::size_t column) {
   }
   while (++characters < column) spaces += ' ';
   return spaces;
+}
+
+std::string without_numbers(std::string text) {
+  constexpr std::string_view of_numbers = "0123456789.-+e";
+  std::erase_if(text, [&](char c) { return of_numbers.find(c) != std::string_view::npos; });
+  return text;
+}
+
+/// What is wrong, whatever the numbers.
+std::size_t kind_of(const Problem& problem) {
+  const auto severity = static_cast<int>(problem.severity);
+  return std::hash<std::string>{}(
+      fmt::format("{}\n{}\n{}", problem.file, severity, without_numbers(problem.message)));
 }
 
 }  // namespace
@@ -77,11 +92,6 @@ void Problems::warning(const Source& source, Place place, std::string message) {
 }
 
 void Problems::join_columns() {
-  const auto without_numbers = [](std::string text) {
-    constexpr std::string_view of_numbers = "0123456789.-+e";
-    std::erase_if(text, [&](char c) { return of_numbers.find(c) != std::string_view::npos; });
-    return text;
-  };
   struct Alike {
     std::size_t first;
     std::vector<std::string> more;
@@ -119,10 +129,10 @@ void Problems::add(Severity severity, const Source& source, Place place, std::st
 void Problems::add(Problem problem) {
   if (problem.severity != Severity::warning) ++errors_;
   if (problem.severity == Severity::missing_file) ++missing_;
-  const auto key = [](const Problem& one) {
-    return std::tie(one.place.line, one.place.column, one.severity, one.message, one.file);
-  };
-  if (std::ranges::any_of(list_, [&](const Problem& one) { return key(one) == key(problem); })) return;
+  const std::size_t kind = kind_of(problem);
+  const auto whole =
+      fmt::format("{} {} {} {}", problem.place.line, problem.place.column, kind, problem.message);
+  if (!seen_.insert(std::hash<std::string>{}(whole)).second || ++how_many_[kind] > most_alike) return;
   if (list_.size() < most_shown)
     list_.push_back(std::move(problem));
   else
@@ -141,6 +151,13 @@ std::vector<Problem> Problems::sorted() const {
   std::vector<Problem> result = list_;
   std::stable_sort(result.begin(), result.end(),
                    [&](const Problem& left, const Problem& right) { return rank(left) < rank(right); });
+  std::unordered_set<std::size_t> last;
+  for (Problem& problem : std::views::reverse(result)) {
+    const std::size_t kind = kind_of(problem);
+    const auto many = how_many_.find(kind);
+    if (many != how_many_.end() && many->second > most_alike && last.insert(kind).second)
+      problem.message += fmt::format("; and {} more like it", many->second - most_alike);
+  }
   if (not_kept_ > 0) {
     Problem rest = result.back();
     rest.message = fmt::format("and {} more problems", not_kept_);

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -76,7 +78,8 @@ class Problems {
 
   /// How many errors so far, warnings not counted.
   std::size_t errors() const { return errors_; }
-  /// Errors and warnings in the order of their place, file by file; of very many, the first hundred found.
+  /// Errors and warnings in the order of their place, file by file; of very many, the first hundred found,
+  /// and of those of a file that differ in numbers alone the first twenty.
   std::vector<Problem> sorted() const;
   std::vector<Problem> warnings() const;
   /// Throws BadInput with all errors and warnings if there is an error;
@@ -94,6 +97,8 @@ class Problems {
   std::vector<InputFile> inputs_;
   std::size_t errors_ = 0;
   std::size_t not_kept_ = 0;
+  std::unordered_set<std::size_t> seen_;                   ///< by their hashes, for files of nothing else
+  std::unordered_map<std::size_t, std::size_t> how_many_;  ///< of those that are alike
   std::size_t missing_ = 0;
 };
 

@@ -43,9 +43,24 @@ TEST(Diagnostics, AllErrorsInOrderAndWarningsDoNotThrow) {
 TEST(Diagnostics, OfVeryManyTheFirstHundredAndTheNumberOfTheRest) {
   const Source source("a.yaml", "one\n", "");
   Problems problems;
-  for (int i = 0; i < 130; ++i) problems.error(source, {1, 1}, std::to_string(i));
+  for (std::size_t i = 0; i < 130; ++i) problems.error(source, {1, 1}, std::string(i, 'x'));
   ASSERT_EQ(problems.sorted().size(), 101u);
   EXPECT_EQ(problems.sorted().back().message, "and 30 more problems");
+}
+
+TEST(Diagnostics, OfThoseThatDifferInNumbersTheFirstTwentyAndHowManyMore) {
+  const Source source("a.yaml", "one\n", "");
+  Problems problems;
+  for (std::size_t i = 0; i < 331; ++i) {
+    problems.error(source, {i + 1, 1}, "at = " + std::to_string(i) + " has no unit");
+    problems.error(source, {i + 1, 1}, "at = " + std::to_string(i) + " has no unit");  // read twice
+  }
+  problems.error(source, {400, 1}, "another");
+  const auto sorted = problems.sorted();
+  ASSERT_EQ(sorted.size(), 21u);
+  EXPECT_EQ(sorted[18].message, "at = 18 has no unit");
+  EXPECT_EQ(sorted[19].message, "at = 19 has no unit; and 311 more like it");
+  EXPECT_EQ(sorted[20].message, "another");
 }
 
 TEST(Diagnostics, WhatManyRunsShareIsSaidOnce) {
