@@ -123,8 +123,11 @@ struct Sensor {
       visit("wiring", self.wiring,
             "ideal: floor of the position; crosswise: the thesis's two gated counters");
     } else {
-      visit("resolution", self.resolution, unit, 0.0, sheet.largest,
-            "smallest step of its readings, of the converter's as well; 0 for none");
+      visit("resolution", self.resolution, unit, sheet.needs_resolution ? 1e-9 : 0.0, sheet.largest,
+            sheet.needs_resolution
+                ? "smallest step of its readings, by which the position is counted; an analogue one has that "
+                  "of its converter"
+                : "smallest step of its readings, of the converter's as well; 0 for none");
       visit("noise", self.noise, unit, 0.0, sheet.largest, "rms of its readings from one to the next");
       visit("accuracy", self.accuracy, unit, 0.0, sheet.largest,
             "rms by which readings are off that do not scatter: linearity, hysteresis, drift; counted in a "

@@ -80,7 +80,8 @@ class FieldLister {
     info.lowest = lowest;
     info.highest = highest;
     info.is_list = is_vector<T>;
-    if constexpr (std::same_as<T, double>) info.default_value = quantity_json(value, unit);
+    if constexpr (std::same_as<T, double>)  // one beyond the ends is none: it must be said
+      if (value >= lowest && value <= highest) info.default_value = quantity_json(value, unit);
   }
   template <std::integral T>
   void operator()(std::string_view key, const T& value, std::type_identity_t<T> lowest,
