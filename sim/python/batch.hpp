@@ -87,6 +87,8 @@ class Batch {
   double read_ratio(std::size_t rig) const;
   double time_s(long ticks) const { return static_cast<double>(ticks) * rig_at(0).tick_s; }
 
+  /// How many threads one tick is worth.
+  unsigned threads_of_a_tick() const;
   void step(Part& part, std::span<const double> commands, long k);
   void follow(Part& part, std::span<const double> commands, Rows& rows);
   py::dict as_dict(std::unique_ptr<Rows> made) const;
@@ -95,6 +97,7 @@ class Batch {
   std::vector<Member> members_;
   std::vector<Part> parts_;
   long ticks_ = 0;
+  std::int64_t tick_ns_ = 0;  ///< of a processor, what the tick before took
   bool whole_ = true;
   mutable Turn::Busy busy_{false};
 };
