@@ -42,7 +42,10 @@ class Writer {
       const std::string below = path.empty() ? key : path + '.' + key;
       line(first, below);
       into_.text += input::Json(key).dump() + ": ";
-      value(item_value, below);
+      if (key == "points")
+        points(item_value, below);
+      else
+        value(item_value, below);
     };
     if (!schema.empty()) item("schema", py::str(schema));
     for (const auto& [key, item_value] : py::reinterpret_borrow<py::dict>(dict)) {
@@ -79,7 +82,27 @@ class Writer {
     first = false;
   }
 
+  /// Of a target: an array of two columns, or pairs, are times [s] and values.
+  void points(const py::handle& given, const std::string& path) {
+    const py::object items = plain(given);
+    if (!is_list(items)) return value(items, path);
+    list(items, path, [this](const py::handle& item, const std::string& below) {
+      const py::object point = plain(item);
+      if (!is_list(point) || py::len(point) != 2) return value(point, below);
+      const py::object at = plain(point[py::int_(0)]);
+      const bool bare = py::isinstance<py::int_>(at) || py::isinstance<py::float_>(at);
+      into_.text += "{\"at\": ";
+      value(bare ? py::str("{} s").format(at) : at, below);
+      into_.text += ", \"to\": ";
+      value(point[py::int_(1)], below);
+      into_.text += '}';
+    });
+  }
+
   void list(const py::handle& items, const std::string& path) {
+    list(items, path, [this](const py::handle& item, const std::string& below) { value(item, below); });
+  }
+  void list(const py::handle& items, const std::string& path, const auto& write) {
     const Level level(*this, path);
     into_.text += '[';
     bool first = true;
@@ -87,7 +110,7 @@ class Writer {
     for (const auto& item : items) {
       const std::string below = path + '[' + std::to_string(index++) + ']';
       line(first, below);
-      value(item, below);
+      write(item, below);
     }
     into_.text += ']';
   }
@@ -109,17 +132,25 @@ class Writer {
       into_.text += number(value_of, PyLong_Type);
     } else if (py::isinstance<py::float_>(value_of)) {
       into_.text += number(value_of, PyFloat_Type);
-    } else if (py::isinstance<py::list>(value_of) || py::isinstance<py::tuple>(value_of)) {
+    } else if (is_list(value_of)) {
       list(value_of, path);
     } else if (py::hasattr(value_of, "tolist")) {  // NumPy's arrays and numbers
       const Level level(*this, path);
-      value(value_of.attr("tolist")(), path);
+      value(plain(value_of), path);
     } else if (py::hasattr(value_of, "__fspath__")) {
       value(py::str(py::module_::import("os").attr("fspath")(value_of)), path);
     } else {
       throw py::type_error(path + ": no file can hold a " +
                            py::str(py::type::of(value_of).attr("__name__")).cast<std::string>());
     }
+  }
+
+  static bool is_list(const py::handle& value) {
+    return py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value);
+  }
+  static py::object plain(const py::handle& value) {
+    return py::hasattr(value, "tolist") ? py::object(value.attr("tolist")())
+                                        : py::reinterpret_borrow<py::object>(value);
   }
 
   static std::string word(const py::handle& value) { return py::repr(value).cast<std::string>(); }

@@ -148,7 +148,7 @@ class Env(unittest.TestCase):
         for key, value, said in (
                 ("rig", [], "rig: a list of one at least"), ("target", [], "target: a list of one at least"),
                 ("loads_kg", (5.0,), r"loads_kg = \(5.0,\): one mass, or the lightest and the heaviest"),
-                ("loads_kg", -11.0, "loads_kg.*-11"), ("target", numpy.zeros(5), "target: numbers need their times: {'kind': 'points'"), ("loads_kg", ("8 kg", 9.0), r"loads_kg\[0\] = '8 kg': must be a number"),
+                ("loads_kg", -11.0, "loads_kg.*-11"), ("target", numpy.zeros(5), r"target: numbers need their times: {'kind': 'points', 'points': numpy.c_\["), ("loads_kg", ("8 kg", 9.0), r"loads_kg\[0\] = '8 kg': must be a number"),
                 ("loads_kg", (8.0, numpy.nan), r"loads_kg\[1\] = nan: must be a number from 0 to 500 kg"),
                 ("jitter", -1, "jitter = -1: must be a number from 0 to 1"), ("jitter", "1e-3", "jitter = '1e-3'"),
                 ("duration_s", "6 s", "duration_s = '6 s': must be a number from 0.0001 to 3600 s")):
@@ -213,6 +213,19 @@ class Env(unittest.TestCase):
         seen = {(several.reset(seed=seed), several.rig is several.task.rig[1], round(several.target.mean(), 2))[1:]
                 for seed in range(20)}
         self.assertEqual(len(seen), 4)
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            several.target[:] = 0.0
+
+    def test_a_target_of_an_array(self):
+        times, ratios = numpy.arange(0.0, 3.0, 0.1), 0.1 + 0.02 * numpy.sin(numpy.arange(30))
+        env = mckibben.Env(target={"kind": "points", "points": numpy.c_[times, ratios]}, duration_s=2.4)
+        numpy.testing.assert_allclose(env.target, numpy.interp(0.012 * numpy.arange(200), times, ratios), atol=1e-12)
+        for points in (list(zip(times, ratios)), [[0, numpy.float32(0.1)], (numpy.int64(1), "30 mm"), {"at": "2 s", "to": 0.1}]):
+            self.assertAlmostEqual(mckibben.Env(target={"kind": "points", "points": points}, duration_s=2.4).target[0], 0.1, 7)
+        with self.assertRaisesRegex(mckibben.InputError, r"^scenario: target\.points\[0\]: .*not a list") as raised:
+            mckibben.Env(target={"kind": "points", "points": numpy.zeros((331, 3))})
+        self.assertEqual(len(raised.exception.problems), 20)
+        self.assertTrue(str(raised.exception).endswith("; and 311 more like it"))
 
     def keeps_gymnasiums_conventions(self, env):
         """What Gymnasium's own checker of environments (1.x: check_env and its passive checks) wants to see."""

@@ -60,7 +60,7 @@ def one_of(name, several, random):
     if isinstance(several, (list, tuple)):
         several = several[int(random.integers(len(several)))]
     if name == "target" and isinstance(several, (numpy.ndarray, numbers.Real)):
-        raise ValueError("target: numbers need their times: {'kind': 'points', 'points': [{'at': '0 s', 'to': 0.1}, {'at': '1 s', 'to': 0.12}]}")
+        raise ValueError("target: numbers need their times: {'kind': 'points', 'points': numpy.c_[times_s, ratios]}")
     return several
 
 
@@ -201,7 +201,9 @@ class Task:
         anybody, unit = {"kind": "pid"}, rig.command_unit  # whoever is to follow it: a scenario wants a controller
         if not self.pair:
             anybody = {"kind": "sine_current", "low": f"0 {unit}", "high": f"0.1 {unit}", "period": "1 s"}
-        return rig, load_kg, target, self.scenario(rig, sorted(set(self.loads_of(rig))), target, [anybody]).target
+        wanted = self.scenario(rig, sorted(set(self.loads_of(rig))), target, [anybody]).target
+        wanted.setflags(write=False)  # shown to whoever asks; another one is another Env's
+        return rig, load_kg, target, wanted
 
 
 class Episode:
