@@ -141,7 +141,7 @@ class Env(unittest.TestCase):
             env.step([0.0])
         env.reset(seed=1)
         for no_action in ([float("nan")], [], [0.1, 0.2], "a", None, "0.1", ["0.1"], [True], [b"1"], numpy.array([1], "m8[s]")):
-            with self.assertRaisesRegex(ValueError, r"must be finite numbers of shape \(1,\)"):
+            with self.assertRaisesRegex(ValueError, r"must be numbers of shape \(1,\) or one number$|^action\[0\] = nan: must be finite$"):
                 env.step(no_action)
         with self.assertRaisesRegex(TypeError, "rig = 3: must be a name, a path or a dict"):
             mckibben.Env(rig=3)
@@ -373,6 +373,16 @@ class VectorEnv(unittest.TestCase):
             self.assertEqual([one.tick for one in envs.episodes], [2, 2], mode)
             self.assertGreater(len(envs.finished[0].history["reward"]), 1)
 
+    def test_says_whose_rig_is_unusable(self):
+        def rig(random):
+            return {"friction": {"scale": -1.0}} if random.random() < 0.5 else "thesis"
+
+        envs = mckibben.VectorEnv(8, rig=rig, duration_s=0.6)
+        who = [i for i in range(8) if numpy.random.default_rng(3 + i).random() < 0.5][0]
+        with self.assertRaisesRegex(mckibben.InputError, rf"^member {who}, of seed {3 + who}: rig: friction\.scale") as raised:
+            envs.reset(seed=3)
+        self.assertEqual(raised.exception.problems[0].path, "friction.scale")
+
     def test_single_members_begin_again(self):
         envs = mckibben.VectorEnv(3, duration_s=6.0, autoreset_mode="Disabled")
         envs.reset(seed=1)
@@ -419,8 +429,8 @@ class VectorEnv(unittest.TestCase):
         with self.assertRaises(ValueError):
             envs.reset(seed=[1, 2, 3])
         envs.reset(seed=1)
-        for bad in ([0.0], [0.0, float("nan")], [0.0] * 3, [[0.0, 0.0]], ["a", "b"]):
-            with self.assertRaisesRegex(ValueError, r"of shape \(2, 1\)"):
+        for bad in ([0.0], [[0.0], [float("nan")]], [0.0] * 3, [[0.0, 0.0]], ["a", "b"]):
+            with self.assertRaisesRegex(ValueError, r"of shape \(2, 1\) or \(2,\)$|^action\[1, 0\] = nan: must be finite$"):
                 envs.step(bad)
         self.assertLess(len(repr(mckibben.VectorEnv(64).action_space)), 60)
         with self.assertRaisesRegex(ValueError, "threads = -1"):

@@ -157,11 +157,12 @@ class Episodes(unittest.TestCase):
                     self.assertIs(many.finished[0], first)
 
     def test_a_reward_of_another_shape_is_an_error(self):
-        for kind, many, wrong in ((mckibben.Env, (), None), (mckibben.Env, (), [1.0]),
+        for kind, many, wrong in ((mckibben.Env, (), None), (mckibben.Env, (), [1.0]), (mckibben.Env, (), numpy.nan),
+                                  (mckibben.VectorEnv, (2,), [0.0, numpy.nan]),
                                   (mckibben.VectorEnv, (2,), 1.0), (mckibben.VectorEnv, (2,), numpy.zeros((2, 1)))):
             env = type("Own", (kind,), {"reward": lambda self, *_: wrong})(*many, duration_s=0.12)
             env.reset(seed=1)
-            with self.assertRaisesRegex(ValueError, r"(?s)reward returned .*: must be (one number|an array of 2, one for)"):
+            with self.assertRaisesRegex(ValueError, r"(?s)reward returned .*: must be (one number|an array of 2, one for)|^reward(\[1\])? = nan: must be finite$"):
                 env.step(numpy.zeros((*many, 1)))
                 if mode != mckibben.AutoresetMode.DISABLED:
                     many.step(numpy.zeros((2, 1)))

@@ -227,6 +227,7 @@ class VectorEnv(Rules, VectorBase):
         self.episodes, self.batch = [None] * self.num_envs, None
         self.finished = [None] * self.num_envs  # the episode before, of members that began again by themselves
         self.random = [numpy.random.default_rng() for _ in self.episodes]
+        self.seeds = [None] * self.num_envs  # where they are known
         self.ended = numpy.zeros(self.num_envs, dtype=bool)
 
     def _many(self, space):
@@ -260,7 +261,8 @@ class VectorEnv(Rules, VectorBase):
             mask = numpy.ones(self.num_envs, dtype=bool)
         for i in numpy.flatnonzero(mask):
             if seeds[i] is not None:
-                self.random[i] = numpy.random.default_rng(int(seeds[i]) + (0 if numpy.ndim(seed) else int(i)))
+                self.seeds[i] = int(seeds[i]) + (0 if numpy.ndim(seed) else int(i))
+                self.random[i] = numpy.random.default_rng(self.seeds[i])
         infos = {}
         self.observations = self._begin(numpy.flatnonzero(mask), each, infos)
         return self.observations.copy(), infos
@@ -324,7 +326,7 @@ class VectorEnv(Rules, VectorBase):
 
     def _begin(self, which, options, infos):
         """New episodes of these members; all observations."""
-        begun = [Episode(self.task, self.random[i], options[i]) for i in which]
+        begun = [self._episode(i, options[i]) for i in which]
         rigs, loads_kg, jitter = zip(*((one.rig, one.load_kg, one.shake()) for one in begun))
         if len(which) == self.num_envs:
             self.batch = Batch(rigs, loads_kg, self.threads, jitter=jitter)
@@ -340,6 +342,14 @@ class VectorEnv(Rules, VectorBase):
         self.ended = self.ended.copy()
         self.ended[which] = False
         return self.observations
+
+    def _episode(self, i, options):
+        try:
+            return Episode(self.task, self.random[i], options)
+        except (ValueError, TypeError, OSError) as error:
+            seed = "" if self.seeds[i] is None else f", of seed {self.seeds[i]}"
+            error.args = f"member {i}{seed}: {error}", *error.args[1:]
+            raise
 
     def _note(self, infos, which, info):
         """Gymnasium's infos: an array for each key, and behind an underscore who has it. Of these members: arrays of

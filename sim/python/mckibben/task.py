@@ -28,9 +28,17 @@ def actions_of(given, shape):
     as texts and dates, is none."""
     values = array_of(given)
     shapes = [shape, shape[:-1]] if shape[-1] == 1 else [shape]
-    if values.dtype.kind not in "fiu" or values.shape not in shapes or not numpy.isfinite(values).all():
-        raise ValueError(f"action = {reprlib.repr(given)}: must be finite numbers of shape {shape}")
+    if values.dtype.kind not in "fiu" or values.shape not in shapes:
+        alone = f" or {shape[:-1]}" if shape[:-1] else " or one number"
+        raise ValueError(f"action = {reprlib.repr(given)}: must be numbers of shape {shape}{alone * (len(shapes) - 1)}")
+    require_finite("action", values)
     return values.reshape(shape).astype(float)
+
+
+def require_finite(name, values):
+    """Raises ValueError with the first place of what is no number."""
+    for at in numpy.argwhere(~numpy.isfinite(values)).tolist()[:1]:
+        raise ValueError(f"{name}{at or ''} = {values[tuple(at)]}: must be finite")
 
 
 def returned(name, given, shape):
@@ -39,6 +47,7 @@ def returned(name, given, shape):
     if values.dtype.kind not in "fiub" or values.shape != shape:
         many = f"an array of {shape[0]}, one for each member that moved" if shape else "one number"
         raise ValueError(f"{name} returned {reprlib.repr(given)}: must be {many}")
+    require_finite(name, values)
     return values
 
 
