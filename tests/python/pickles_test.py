@@ -140,7 +140,7 @@ class Pickles(unittest.TestCase):
         env.reset(seed=3)
         for _ in range(20):
             env.step([0.1])
-        others = [again(env), copy.deepcopy(env)]
+        others = copies(env)
         for _ in range(20):
             observation, reward = env.step([0.2])[:2]
             for other in others:
@@ -160,7 +160,7 @@ class Pickles(unittest.TestCase):
         envs.reset(seed=3)
         for _ in range(20):
             envs.step([0.1, 0.2, 0.3])
-        others = [again(envs), copy.deepcopy(envs)]
+        others = copies(envs)
         for _ in range(60):  # into the next episodes
             rows = envs.step([0.2, 0.0, 0.1])
             for other in others:

@@ -3,6 +3,7 @@
 Gymnasium is not needed. Where it is installed, Env and VectorEnv are its environments, with ids: Track-v0,
 TrackDrawn-v0, whose rigs and targets are drawn, and TrackPair-v0, two muscles against each other.
 """
+import copy
 import numbers
 
 import numpy
@@ -52,6 +53,10 @@ class Rules:
     def terminates(self, observation):
         """Whether the episode ends here. Returns a bool, of a VectorEnv k of them."""
         return numpy.zeros(observation.shape[:-1], dtype=bool)
+
+    def __copy__(self):
+        """An independent one that goes on from here, as of a Ride."""
+        return copy.deepcopy(self)
 
 
 class Env(Rules, Base):
