@@ -197,6 +197,8 @@ class Episodes(unittest.TestCase):
             scenario = env.scenario([controller], name="mine")
             self.assertEqual((scenario.name, scenario.rig), ("mine", env.rig))
             self.assertEqual(scenario.target.tobytes(), env.target.tobytes())
+            described = "thesis_pair" if env.task.pair else "thesis"
+            self.assertEqual(env.scenario([controller], rig=described).rig, mckibben.Rig(described))
             if "rig" in keys and keys["rig"] != "thesis_pair":
                 self.assertEqual(scenario.to_dict()["loads"], [f"{env.episode.load_kg!r} kg"])
 

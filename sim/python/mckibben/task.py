@@ -192,7 +192,7 @@ class Task:
         keys = ("time_s", "target", self.reads, *("command", "opposite_command")[:2 if self.pair else 1], "reward")
         return dict(zip(keys, numpy.array(rows, dtype=float).reshape(-1, len(keys)).T))
 
-    def scenario(self, rig, loads_kg, target, controllers, **keys):
+    def scenario(self, rig, loads_kg, target, controllers, keys={}):
         keys = {"rig": rig, "duration": f"{self.duration_s!r} s", "controllers": controllers, **keys}
         if self.pair:
             return Scenario({"targets": [{"angle": target}], **keys})
@@ -238,7 +238,7 @@ class Episode:
         noise = keys.get("noise", {})
         if self.task.jitter and isinstance(noise, dict):
             keys = {**keys, "noise": {"encoder_jitter": self.jitter_ratio(), **noise}}
-        return self.task.scenario(self.rig, [self.load_kg], self.wish, controllers, **keys)
+        return self.task.scenario(self.rig, [self.load_kg], self.wish, controllers, keys)
 
     def columns(self):
         """How a data set reads the episode's angle: as counts; a contraction ratio is taken for one by itself."""
