@@ -255,7 +255,7 @@ class VectorEnv(Rules, VectorBase):
                 raise ValueError(f"options: load_kg = {loads!r}: one mass, or one for each of {self.num_envs} members")
             each = [{**options, "load_kg": load} for load in numpy.asarray(loads).tolist()]
         for one in each:
-            self.task.check(one, *seeds)
+            self.task.check(one, *seeds, known="there are load_kg and reset_mask")
         super().reset(seed=None if seed is None or numpy.ndim(seed) else int(seed))
         if mask is not None:
             mask = numpy.asarray(mask)

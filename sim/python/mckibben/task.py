@@ -165,13 +165,13 @@ class Task:
             rig._load_within(load_kg, name)
         return load_kg
 
-    def check(self, options, *seeds):
+    def check(self, options, *seeds, known="there is load_kg"):
         """Of a reset, before it changes anything; without what is of a VectorEnv."""
         if self.pair and "load_kg" in options:
             raise ValueError("options: load_kg: must be left out; no load hangs on a pair of muscles")
         if unknown := set(options) - {"load_kg"}:
-            raise ValueError(f"options: {', '.join(sorted(map(repr, unknown)))} is unknown; there are load_kg, of one muscle, "
-                             "and reset_mask, of a VectorEnv")
+            raise ValueError(f"options: {', '.join(sorted(map(repr, unknown)))} is unknown; "
+                             f"{'a pair of muscles has none' if self.pair else known}")
         if "load_kg" in options:
             self.load("options: load_kg", options["load_kg"])
         for seed in seeds:
