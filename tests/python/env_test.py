@@ -433,6 +433,8 @@ class VectorEnv(unittest.TestCase):
         for bad in ([0.0], [[0.0], [float("nan")]], [0.0] * 3, [[0.0, 0.0]], ["a", "b"]):
             with self.assertRaisesRegex(ValueError, r"of shape \(2, 1\) or \(2,\)$|^action\[1, 0\] = nan: must be finite$"):
                 envs.step(bad)
+        with self.assertRaisesRegex(ValueError, r"^action = an array of shape \(4, 1\): must be"):
+            envs.step(numpy.zeros((4, 1)))
         self.assertLess(len(repr(mckibben.VectorEnv(64).action_space)), 60)
         with self.assertRaisesRegex(ValueError, "threads = -1"):
             mckibben.VectorEnv(2, threads=-1)

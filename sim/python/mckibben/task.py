@@ -30,7 +30,8 @@ def actions_of(given, shape):
     shapes = [shape, shape[:-1]] if shape[-1] == 1 else [shape]
     if values.dtype.kind not in "fiu" or values.shape not in shapes:
         alone = f" or {shape[:-1]}" if shape[:-1] else " or one number"
-        raise ValueError(f"action = {reprlib.repr(given)}: must be numbers of shape {shape}{alone * (len(shapes) - 1)}")
+        it = reprlib.repr(given) if values.size < 4 else f"an array of shape {values.shape}"
+        raise ValueError(f"action = {it}: must be numbers of shape {shape}{alone * (len(shapes) - 1)}")
     require_finite("action", values)
     return values.reshape(shape).astype(float)
 
