@@ -4,6 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <controllers/current_range.hpp>
@@ -16,8 +17,8 @@ namespace {
 
 using engine::Linear;
 
-// So little that it only says on which side of a kink the rig stands; a valve opens so little for less than a
-// step of any DAC, where settling ends.
+// So little that it only says on which side of a kink the rig stands; a valve that feeds a leak is open by
+// more.
 constexpr double hardly_per_s = 1e-100, hardly_Pa = 1e-6, hardly_open = 1e-4;
 
 /// The slot of an effect's memory.
@@ -93,6 +94,38 @@ Linear beside(const ride::Ride& ride, const std::array<double, 2>& commands, dou
 Eigen::Index index_of(const std::vector<engine::Signal>& signals, const std::string& name) {
   const auto found = std::ranges::find(signals, name, &engine::Signal::name);
   return found == signals.end() ? -1 : found - signals.begin();
+}
+
+/// Newton's steps to where no air flows, the load as it stands: an integrator leaves pressures a few Pa about
+/// that, now on this side of a valve's kink, now on that. Whether they get there.
+bool calm(ride::Ride& ride, const std::array<double, 2>& commands) {
+  engine::Flow& flow = ride.rider().now.flow;
+  plant::Held held = ride.held();
+  held.slip = plant::Slip::rising;  // of friction that sticks there are no slopes
+  flow.state.joint.contraction_speed_per_s = 0.0;
+  const auto part = [&](const std::string& name) -> double* {
+    const auto of = [&](const std::string& suffix, plant::SideState<double>& state,
+                        plant::SideMemory<double>& memory) -> double* {
+      if (name == "valve_pressure" + suffix + "_Pa") return &state.valve_pressure_Pa;
+      if (name == "muscle_pressure" + suffix + "_Pa") return &state.muscle_pressure_Pa;
+      if (name == "regulator_error" + suffix + "_Pa") return &memory[plant::regulator_memory];
+      return name == "valve_lag" + suffix ? &memory[lag_slot] : nullptr;
+    };
+    if (!ride.plant().opposite()) return of("", flow.state.side, flow.memory.side);
+    double* one = of("_1", flow.state.side, flow.memory.side);
+    return one != nullptr ? one : of("_2", flow.state.opposite, flow.memory.opposite);
+  };
+  for (int step = 0; step < 20; ++step) {
+    const Linear now = engine::linearise(ride.plant(), flow, held, commands);
+    std::vector<Eigen::Index> air;
+    for (std::size_t i = 0; i < now.states.size(); ++i)
+      if (part(now.states[i].name) != nullptr) air.push_back(static_cast<Eigen::Index>(i));
+    const Eigen::VectorXd moves = now.A(air, air).fullPivLu().solve(-now.rate(air));
+    for (std::size_t i = 0; i < air.size(); ++i)
+      *part(now.states[static_cast<std::size_t>(air[i])].name) += moves[static_cast<Eigen::Index>(i)];
+    if (moves.lpNorm<Eigen::Infinity>() < hardly_Pa) return true;
+  }
+  return false;
 }
 
 /// With a row and a column of zeros for each state that only `other` has.
@@ -289,34 +322,36 @@ Point point_at(const plant::Rig& described, double load_kg, const Place& place, 
   plant::Rig smooth = rig;  // a load guide that slides pulls as it pulls, too
   if (threads == Threads::sliding) smooth.effects.get<plant::GuideFriction>() = {};
   const Settled at(rig, load_kg, point.command);
-  const ride::Ride& ride = at.ride();
+  const std::array commands{point.command.current_mA, point.command.opposite_mA};
+  ride::Ride ride = at.ride();
+  point.settled = calm(ride, commands) && at.settled;
   const plant::Plant& plant = ride.plant();
+  const plant::State<double>& state = ride.flow().state;
   const plant::Moment<double> now = ride.moment();
   point.position = at.position();
-  point.pressure_Pa = {at.state().side.muscle_pressure_Pa, at.state().opposite.muscle_pressure_Pa};
+  point.pressure_Pa = {state.side.muscle_pressure_Pa, state.opposite.muscle_pressure_Pa};
   point.has_angle = plant.has_angle();
-  point.settled = at.settled;
   point.on_stop = now.stop_force_N > 0.0 || now.joint_stop_force_N != 0.0;
-  point.shut = std::abs(now.valve_opening) <= hardly_open && rig.valve.is_servo();
+  const auto is_shut = [](const plant::Valve& valve, const plant::SideMoment<double>& moment) {
+    return std::abs(moment.valve_opening) <= hardly_open && valve.is_servo();
+  };
+  point.shut = is_shut(rig.valve, now) || (rig.pair() && is_shut(rig.pair()->opposite.valve, now.opposite));
 
   ride::Ride sliding({smooth, load_kg}, smooth.integrator);
   sliding.rider().now = ride.rider().now;
-  const std::array commands{point.command.current_mA, point.command.opposite_mA};
   const double first = opening == Opening::venting ? -1.0 : 1.0,
                second = opening == Opening::filling ? 1.0 : -1.0;
   Linear& slopes = point.slopes =
       mean(beside(sliding, commands, 1.0, first), beside(sliding, commands, -1.0, second));
-  const double l0 = plant.side().braid().rest_length_m(),
-               arm_m = plant.arm_m(at.state().joint.contraction_ratio);
+  const double l0 = plant.side().braid().rest_length_m(), arm_m = plant.arm_m(state.joint.contraction_ratio);
   if (plant.opposite()) {
     without_bristle(slopes, plant.side(), "_1", l0, threads);
     without_bristle(slopes, *plant.opposite(), "_2", -l0, threads);
   } else {
     without_bristle(slopes, plant.side(), "", l0, threads);
   }
-  point.dry = threads == Threads::sliding
-                  ? dry_friction(plant, now, at.state().joint.contraction_ratio, slopes)
-                  : Matrix::Zero(slopes.A.rows(), slopes.A.cols());
+  point.dry = threads == Threads::sliding ? dry_friction(plant, now, state.joint.contraction_ratio, slopes)
+                                          : Matrix::Zero(slopes.A.rows(), slopes.A.cols());
   name_ends(slopes, point.has_angle, l0 / arm_m);
   point.direction = Eigen::VectorXd::Ones(slopes.B.cols());
   if (plant.opposite())

@@ -150,6 +150,22 @@ TEST(Point, OfAServoValveAtRestIsShutEverywhere) {
           << ratio << ' ' << kg;
 }
 
+/// An integrator leaves pressures a few Pa about where they rest: slopes had been of one side, here or there.
+TEST(Point, OfAPairHasPolesThatChangeSmoothlyWithItsAngle) {
+  plant::Rig rig = plant::thesis_pair();
+  *rig.pair() = plant::with_load_in_hand(*rig.pair(), 0.5, 0.4);
+  std::vector<Complex> before;
+  for (int deg = -20; deg <= 20; deg += 2) {
+    const Point point =
+        point_at(rig, 0.0, {Place::Of::position, deg * plant::degree_rad}, Threads::sliding, Opening::both);
+    EXPECT_TRUE(point.shut && point.settled) << deg;
+    const auto all = poles(point.system());
+    for (std::size_t i = 0; i < before.size(); ++i)
+      EXPECT_NEAR(std::abs(all.at(i)) / std::abs(before[i]), 1.0, 0.05) << deg << ' ' << i;
+    before = all;
+  }
+}
+
 /// Rocking moves the load to where its threads pull neither way, and there the point is.
 TEST(Point, OfThreadsThatStickIsAsRidden) {
   plant::Rig rig;
