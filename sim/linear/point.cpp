@@ -4,12 +4,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <controllers/current_range.hpp>
 #include <sim/linear/point.hpp>
-#include <sim/ride/ride.hpp>
+#include <sim/linear/rest.hpp>
 #include <sim/run/simulate.hpp>
 
 namespace mckibben::linear {
@@ -19,54 +18,7 @@ using engine::Linear;
 
 // So little that it only says on which side of a kink the rig stands; a valve that feeds a leak is open by
 // more.
-constexpr double hardly_per_s = 1e-100, hardly_Pa = 1e-6, hardly_open = 1e-4;
-
-/// The slot of an effect's memory.
-template <class Wanted, class... Effect>
-constexpr std::size_t slot_in(const std::tuple<Effect...>*) {
-  std::size_t slot = 0;
-  bool before = true;
-  ((before = before && !std::same_as<Wanted, Effect>, slot += before && plant::Remembers<Effect> ? 1 : 0),
-   ...);
-  return slot;
-}
-constexpr std::size_t lag_slot = slot_in<plant::ValveLag>(static_cast<const plant::Effects::Table*>(nullptr));
-
-/// The rig, held by one command until nothing moves.
-class Settled {
- public:
-  Settled(const plant::Rig& rig, double load_kg, const controllers::Command& command)
-      : ride_({rig, load_kg}, rig.integrator) {
-    constexpr double longest_s = 600.0, ratio_in_a_second = 1e-7, Pa_in_a_second = 1.0;
-    ride::Drive drive;
-    drive.current_mA = command.current_mA;
-    drive.opposite.current_mA = command.opposite_mA;
-    ride_.start(drive, 0.0);
-    const long second = std::max(std::lround(1.0 / rig.tick_s), 1L);
-    const auto longest = static_cast<long>(std::max(longest_s, rig.settling_time_s) / rig.tick_s);
-    plant::State<double> before = state();
-    for (long tick = 1; tick <= longest; ++tick) {
-      ride_.step(drive, static_cast<double>(tick) * rig.tick_s);
-      if (tick % second != 0) continue;
-      const plant::State<double> now = state();
-      settled = std::abs(now.joint.contraction_ratio - before.joint.contraction_ratio) < ratio_in_a_second &&
-                std::abs(now.side.muscle_pressure_Pa - before.side.muscle_pressure_Pa) < Pa_in_a_second;
-      before = now;
-      if (settled && static_cast<double>(tick) * rig.tick_s >= rig.settling_time_s) break;
-    }
-  }
-
-  const plant::State<double>& state() const { return ride_.flow().state; }
-  double position() const {
-    const double ratio = state().joint.contraction_ratio;
-    return ride_.plant().has_angle() ? ride_.plant().angle_rad(ratio) : ratio;
-  }
-  const ride::Ride& ride() const { return ride_; }
-  bool settled = false;
-
- private:
-  ride::Ride ride_;
-};
+constexpr double hardly_per_s = 1e-100, hardly_open = 1e-4;
 
 /// Where the rig stands, a hair beyond its kinks: load moving up or down, valves filling or venting.
 Linear beside(const ride::Ride& ride, const std::array<double, 2>& commands, double way, double opens) {
@@ -94,38 +46,6 @@ Linear beside(const ride::Ride& ride, const std::array<double, 2>& commands, dou
 Eigen::Index index_of(const std::vector<engine::Signal>& signals, const std::string& name) {
   const auto found = std::ranges::find(signals, name, &engine::Signal::name);
   return found == signals.end() ? -1 : found - signals.begin();
-}
-
-/// Newton's steps to where no air flows, the load as it stands: an integrator leaves pressures a few Pa about
-/// that, now on this side of a valve's kink, now on that. Whether they get there.
-bool calm(ride::Ride& ride, const std::array<double, 2>& commands) {
-  engine::Flow& flow = ride.rider().now.flow;
-  plant::Held held = ride.held();
-  held.slip = plant::Slip::rising;  // of friction that sticks there are no slopes
-  flow.state.joint.contraction_speed_per_s = 0.0;
-  const auto part = [&](const std::string& name) -> double* {
-    const auto of = [&](const std::string& suffix, plant::SideState<double>& state,
-                        plant::SideMemory<double>& memory) -> double* {
-      if (name == "valve_pressure" + suffix + "_Pa") return &state.valve_pressure_Pa;
-      if (name == "muscle_pressure" + suffix + "_Pa") return &state.muscle_pressure_Pa;
-      if (name == "regulator_error" + suffix + "_Pa") return &memory[plant::regulator_memory];
-      return name == "valve_lag" + suffix ? &memory[lag_slot] : nullptr;
-    };
-    if (!ride.plant().opposite()) return of("", flow.state.side, flow.memory.side);
-    double* one = of("_1", flow.state.side, flow.memory.side);
-    return one != nullptr ? one : of("_2", flow.state.opposite, flow.memory.opposite);
-  };
-  for (int step = 0; step < 20; ++step) {
-    const Linear now = engine::linearise(ride.plant(), flow, held, commands);
-    std::vector<Eigen::Index> air;
-    for (std::size_t i = 0; i < now.states.size(); ++i)
-      if (part(now.states[i].name) != nullptr) air.push_back(static_cast<Eigen::Index>(i));
-    const Eigen::VectorXd moves = now.A(air, air).fullPivLu().solve(-now.rate(air));
-    for (std::size_t i = 0; i < air.size(); ++i)
-      *part(now.states[static_cast<std::size_t>(air[i])].name) += moves[static_cast<Eigen::Index>(i)];
-    if (moves.lpNorm<Eigen::Infinity>() < hardly_Pa) return true;
-  }
-  return false;
 }
 
 /// With a row and a column of zeros for each state that only `other` has.
@@ -318,12 +238,15 @@ Point point_at(const plant::Rig& described, double load_kg, const Place& place, 
   if (plant::Pair* pair = rig.pair()) without_band(pair->opposite.valve, pair->opposite.effects);
   Point point;
   point.load_kg = load_kg;
-  point.command = commands_of(rig, command_at(rig, load_kg, place));
+  const plant::Rig loose = without_friction(rig);
+  point.command = commands_of(rig, command_at(loose, load_kg, place));
   plant::Rig smooth = rig;  // a load guide that slides pulls as it pulls, too
   if (threads == Threads::sliding) smooth.effects.get<plant::GuideFriction>() = {};
-  const Settled at(rig, load_kg, point.command);
+  const Settled at(loose, load_kg, point.command);
   const std::array commands{point.command.current_mA, point.command.opposite_mA};
-  ride::Ride ride = at.ride();
+  ride::Ride ride({rig, load_kg}, rig.integrator);
+  ride.rider().now = at.ride().rider().now;
+  ride.rider().now.flow.state.side.bristle_m = ride.rider().now.flow.state.opposite.bristle_m = 0.0;
   point.settled = calm(ride, commands) && at.settled;
   const plant::Plant& plant = ride.plant();
   const plant::State<double>& state = ride.flow().state;
@@ -357,6 +280,9 @@ Point point_at(const plant::Rig& described, double load_kg, const Place& place, 
   if (plant.opposite())
     point.direction[1] = -plant.side().reference_slope_Pa_per_mA(commands[0]) /
                          plant.opposite()->reference_slope_Pa_per_mA(commands[1]);
+  const double guide_N = rig.effects.get<plant::GuideFriction>().coefficient * plant.weight_N();
+  point.friction_N =
+      guide_N + now.friction_level_N + (plant.opposite() ? now.opposite.friction_level_N : 0.0);
   point.shown = rig.effects.get<plant::EncoderScale>().reading_factor();
   point.command_delay_s = rig.effects.command_delay_s();
   point.reading_delay_s = mean_delay_s(rig);

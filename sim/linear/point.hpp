@@ -1,5 +1,6 @@
-// The rig at rest under a command, and its slopes there (engine::linearise). Where a law has a kink, what is
-// taken is the mean of both sides: of threads at standstill, and of a servo valve that is shut.
+// The rig at rest under a command, and its slopes there (engine::linearise). It stands where it would without
+// friction, in the middle of the band in which friction holds it. Where a law has a kink, what is taken is
+// the mean of both sides: of threads at standstill, and of a servo valve that is shut.
 //
 // A bristle (LuGre) has no state of its own here. Threads that stick are springs, z = l0 e and what the cord
 // stretches. Threads that slide pull alike at any speed and have no slope; but in a swing whose speed has the
@@ -40,6 +41,7 @@ struct Point {
   Matrix dry;          ///< of threads that slide, and the load's guide: A loses 4/(pi V) of it in a swing
   double shown = 1.0;  ///< what is read for a unit of position
   double command_delay_s = 0.0, reading_delay_s = 0.0;
+  double friction_N = 0.0;  ///< at the cord: what friction holds, either way
 
   double delay_s() const { return command_delay_s + reading_delay_s; }
   /// From a loop's output to one of the outputs; states in their working sizes, delays left out.
@@ -59,7 +61,7 @@ struct OutOfReach : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Settles there from rest, as a run does. Throws OutOfReach, std::invalid_argument where the rig has no
+/// Settles there from rest. Throws OutOfReach, std::invalid_argument where the rig has no
 /// slopes, NumericalFailure.
 Point point_at(const plant::Rig& rig, double load_kg, const Place& place, Threads threads, Opening opening);
 

@@ -79,6 +79,7 @@ std::string remarks_on(const Linearised& all, const linear::Point& point) {
             : opening == filling ? "; the valve fills"
                                  : "; the valve vents";
   }
+  if (point.friction_N > 0.0) text += fmt::format("; friction holds {:.3g} N either way", point.friction_N);
   if (point.on_stop) text += "; IT LIES ON A STOP: take a higher command or less load";
   if (!point.settled) text += "; STILL MOVING after 10 min: memories of effects creep on";
   return text;

@@ -66,6 +66,7 @@ Json study_json(const Linearised& all, const Study& study) {
            {"settled", point.settled},
            {"on_stop", point.on_stop},
            {"valve_shut", point.shut},
+           {"friction_N", point.friction_N},
            {"states", signals_json(s.states, s.state)},
            {"inputs", signals_json(s.inputs, s.input)},
            {"outputs", signals_json(s.outputs, s.output)}};

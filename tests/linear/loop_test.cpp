@@ -52,16 +52,17 @@ double growth(const plant::Rig& rig, const Point& point, const controllers::PidF
   settings.command_filter = filter;
   static_cast<controllers::PidForm&>(settings) = form_of;
   settings.rest_current_mA = point.command.current_mA;
-  controllers::Knowledge known = run::knowledge_of(rig, {point.position});
-  const double count = known.contraction_per_count;
-  const auto controller = controllers::make(settings, known);
-  controller->rest();
   ride::Ride ride({rig, lifted_kg}, rig.integrator);
   ride::Drive drive;
   drive.current_mA = point.command.current_mA;
   ride.start(drive, 0.0);
   long tick = 0;
   for (; tick < 2000; ++tick) ride.step(drive, static_cast<double>(tick + 1) * tick_s);
+  // Its target is where friction holds it.
+  controllers::Knowledge known = run::knowledge_of(rig, {ride.flow().state.joint.contraction_ratio});
+  const double count = known.contraction_per_count;
+  const auto controller = controllers::make(settings, known);
+  controller->rest();
   double early = 0.0, late = 0.0;
   const long first = tick, all = std::lround(seconds / tick_s);
   ride.rider().now.flow.state.joint.contraction_speed_per_s = kick_m_per_s / rig.muscle.rest_length_m;

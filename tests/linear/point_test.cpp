@@ -166,6 +166,21 @@ TEST(Point, OfAPairHasPolesThatChangeSmoothlyWithItsAngle) {
   }
 }
 
+/// Whichever way a search came there.
+TEST(Point, IsInTheMiddleOfWhereFrictionHolds) {
+  plant::Rig rig, free = smooth();
+  rig.effects.get<plant::GuideFriction>().coefficient = 0.02;
+  for (const double ratio : {0.05, 0.13, 0.15, 0.16, 0.20, 0.21}) {
+    const auto at = [&](const plant::Rig& of) {
+      return point_at(of, 16.138, {Place::Of::position, ratio}, Threads::sliding, Opening::both);
+    };
+    EXPECT_NEAR(at(rig).command.current_mA, at(free).command.current_mA, 1e-3) << ratio;
+    EXPECT_NEAR(gain_at_rest(at(rig).system()) / gain_at_rest(at(free).system()), 1.0, 1e-3) << ratio;
+    EXPECT_GT(at(rig).friction_N, 0.02 * 16.138 * 9.8);
+    EXPECT_EQ(at(free).friction_N, 0.0);
+  }
+}
+
 /// Rocking moves the load to where its threads pull neither way, and there the point is.
 TEST(Point, OfThreadsThatStickIsAsRidden) {
   plant::Rig rig;
