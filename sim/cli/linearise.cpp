@@ -73,7 +73,9 @@ LinearTask task_of(const domain::Scenario& scenario, unsigned threads) {
         task.all.tuned.push_back({name, *controllers::part_of<controllers::PidForm>(*open[i])});
   }
   for (const auto& settings : briefing.settings)
-    if (!linear::is_linear(settings))
+    if (domain::is_given(settings))
+      task.all.no_loop.push_back(controllers::name_of(settings));
+    else if (!linear::is_linear(settings))
       task.all.not_linear.push_back(controllers::name_of(settings));
     else if (!controllers::part_of<controllers::PidForm>(settings)->needs_tuning())
       task.controllers.push_back(settings);
@@ -174,7 +176,10 @@ int linearise(const LineariseOptions& options) {
   for (const double load_kg : task.loads_kg)
     for (std::size_t i = 0; i < all.question.places.size(); ++i) {
       const linear::Place& place = all.question.places[i];
-      if (const std::string why = all.rig.pair() ? "" : domain::too_heavy(load_kg, all.rig); !why.empty())
+      if (const std::string why = all.rig.pair()               ? ""
+                                  : !all.rig.can_hang(load_kg) ? input::no_mass(all.rig)
+                                                               : domain::too_heavy(load_kg, all.rig);
+          !why.empty())
         refuse(options.loads_kg.empty() ? options.file : "--load", fmt::format("{:g} kg: {}", load_kg, why));
       try {
         all.studies.push_back(
@@ -217,7 +222,8 @@ void add_linearise(CLI::App& app, Asked& asked) {
       ->type_name("PLACE");
   add_loads(verb, options.loads_kg,
             "\"11 kg\"; may be repeated (default: the scenario's; of a rig one that the muscle lifts "
-            "halfway)");
+            "halfway)",
+            true);
   verb.add_option(
           "--friction", options.friction,
           "Threads that slide, whose friction is constant, or stick, whose friction is a spring (default: "

@@ -97,9 +97,10 @@ void add_measured(CLI::App& verb, std::string& path) {
   add_input(verb, path, "dataset", "Data set: its dataset.yaml or the folder", "DATASET");
 }
 
-void add_loads(CLI::App& verb, std::vector<double>& loads_kg, const std::string& example) {
-  const auto read = [&loads_kg](const std::vector<std::string>& texts) {
-    for (const auto& text : texts) loads_kg.push_back(positive_quantity("--load", text, "kg", 500.0));
+void add_loads(CLI::App& verb, std::vector<double>& loads_kg, const std::string& example, bool none_too) {
+  const auto read = [&loads_kg, none_too](const std::vector<std::string>& texts) {
+    for (const auto& text : texts)
+      loads_kg.push_back(positive_quantity("--load", text, "kg", 500.0, none_too));
   };
   verb.add_option_function<std::vector<std::string>>("--load", read, "Load such as " + example)
       ->allow_extra_args(false)
@@ -126,16 +127,18 @@ CLI::Validator from_to(double lowest, double highest) {
   return {check, ""};
 }
 
-double positive_quantity(const std::string& option, const std::string& text, const char* unit, double most) {
+double positive_quantity(const std::string& option, const std::string& text, const char* unit, double most,
+                         bool none_too) {
   double value = 0.0;
   try {
     value = input::read_quantity(text, unit);
   } catch (const input::BadQuantity& error) {
     throw CLI::ValidationError(fmt::format("{}: {}", option, error.what()));
   }
-  if (value > 0.0 && value <= most) return value;
-  throw CLI::ValidationError(
-      fmt::format("{}: {} must be above 0 and at most {}", option, text, input::write_quantity(most, unit)));
+  if ((value > 0.0 || (none_too && value == 0.0)) && value <= most) return value;
+  throw CLI::ValidationError(fmt::format("{}: {} must be {} and at most {}", option, text,
+                                         none_too ? "0 or more" : "above 0",
+                                         input::write_quantity(most, unit)));
 }
 
 std::vector<std::string> names_of(const CLI::Option& option) {

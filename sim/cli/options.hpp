@@ -57,9 +57,10 @@ CLI::Validator one_of(const std::string& kind, const std::vector<std::string>& w
 /// A number within these limits; anything else is a usage error that names them.
 CLI::Validator from_to(double lowest, double highest);
 
-/// A quantity such as "8.87 kg", above 0 and up to `most`; what is wrong with it is a usage error that names
-/// the option.
-double positive_quantity(const std::string& option, const std::string& text, const char* unit, double most);
+/// A quantity such as "8.87 kg", above 0 (or 0, `none_too`) and up to `most`; what is wrong with it is a
+/// usage error that names the option.
+double positive_quantity(const std::string& option, const std::string& text, const char* unit, double most,
+                         bool none_too = false);
 
 /// An option that is such a number.
 void add_number(CLI::App& verb, const char* name, auto& value, double lowest, double highest,
@@ -76,8 +77,9 @@ void add_quantity(CLI::App& verb, const char* name, auto& value, const char* uni
   verb.add_option_function<std::string>(name, read, what)->type_name(type);
 }
 
-/// Loads that a verb takes. `example`: of one, and what goes without them.
-void add_loads(CLI::App& verb, std::vector<double>& loads_kg, const std::string& example);
+/// Loads that a verb takes. `example`: of one, and what goes without them; `none_too`: 0 kg is one.
+void add_loads(CLI::App& verb, std::vector<double>& loads_kg, const std::string& example,
+               bool none_too = false);
 
 /// What is wrong with the first verb or option that is none, and what may have been meant; empty if nothing.
 /// CLI11 would name a missing argument instead, or nothing that helps.

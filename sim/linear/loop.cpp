@@ -175,9 +175,11 @@ std::optional<PidByMargins> pid_by_margins(const Point& point, double tick_s, co
       const double middle = std::sqrt(low * high);
       (keeps_phase(middle) ? low : high) = middle;
     }
+    const Margins beyond = gain_binds ? Margins{} : with(high);
     best = {{rounded_down(low, digits), Ti_s, Td_s},
             gain_binds,
-            gain_binds ? 0.0 : with(high).phase_rad_per_s,
+            beyond.phase_rad_per_s,
+            beyond.phase_rad.value_or(0.0),
             w == all.back()};
   }
   return best;

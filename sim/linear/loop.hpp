@@ -50,6 +50,7 @@ struct PidByMargins {
   run::Gains gains;
   bool gain_binds = false;       ///< more gain would cost the gain margin, not the phase margin
   double binds_rad_per_s = 0.0;  ///< where it would cost the phase margin; 0: that does not bind
+  double left_rad = 0.0;         ///< of the phase margin, there
   bool shortest = false;         ///< no shorter integral time was looked at
 };
 /// Of the PIDs with Ti = 4 Td that keep the margins, the one with the largest K/Ti: it makes up for a

@@ -31,6 +31,7 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
       Loop& loop = add("pid_by_margins", loop_of(point, pid_of(found->gains), rig.tick_s));
       loop.binds = found->gain_binds ? "gain" : "phase";
       loop.binds_rad_per_s = found->binds_rad_per_s;
+      loop.left_rad = found->left_rad;
       loop.shortest = found->shortest;
     }
   if (question.lqr) {

@@ -20,6 +20,7 @@ struct Loop {
   double calmed_m_per_s = 0.0;   ///< of an unstable one, see there
   std::string_view binds{};      ///< of `pid_by_margins`, the margin that more gain would cost: gain or phase
   double binds_rad_per_s = 0.0;  ///< where it would cost the phase margin
+  double left_rad = 0.0;         ///< of the phase margin, there
   bool shortest = false;         ///< its integral time is the shortest that was looked at
 };
 

@@ -57,7 +57,10 @@ std::string margins_line(const linear::Loop& loop, bool in_a_swing) {
   const bool elsewhere = std::abs(std::log(loop.binds_rad_per_s / has.phase_rad_per_s)) > std::log(1.05);
   const std::string binds = loop.binds.empty() ? ""
                             : loop.binds_rad_per_s > 0.0 && elsewhere
-                                ? "; the phase margin binds, " + at(loop.binds_rad_per_s)
+                                ? fmt::format(
+                                      "; the resonance {} is just below 0 dB: any more gain, and the phase "
+                                      "margin there is {:.0f} deg",
+                                      at(loop.binds_rad_per_s), loop.left_rad / plant::degree_rad)
                                 : fmt::format("; the {} margin binds", loop.binds);
   return fmt::format("  {:18} {:30} {}{}{}{}\n", loop.name, gain, phase, shrunk, binds,
                      loop.shortest ? "; the shortest integral_time searched" : "");
@@ -170,9 +173,9 @@ std::string words_on_lqr(const Linearised& all, const std::string& name, const s
 }  // namespace
 
 std::string title_of(const Linearised& all, const Study& study) {
-  const std::string unit = command_unit(all), load = fmt::format("{:g} kg ", study.point.load_kg);
-  std::string text = fmt::format("{}at {:.4g} {}", all.rig.pair() && study.point.load_kg == 0.0 ? "" : load,
-                                 study.point.command.current_mA, unit);
+  const std::string unit = command_unit(all);
+  std::string text =
+      fmt::format("{:g} kg at {:.4g} {}", study.point.load_kg, study.point.command.current_mA, unit);
   if (all.rig.pair()) text += fmt::format(" and {:.4g} {}", study.point.command.opposite_mA, unit);
   return text;
 }
@@ -196,6 +199,7 @@ std::string table_of(const Linearised& all) {
     text += fmt::format("  {}: {}\n", controller, gains_text(all, pid));
   for (const auto& name : all.not_linear)
     text += fmt::format("{}: not linear, and has no margins here\n", name);
+  for (const auto& name : all.no_loop) text += fmt::format("{}: plays a command and has no loop\n", name);
   return text;
 }
 

@@ -16,6 +16,7 @@ struct Linearised {
   linear::Question question{};
   std::vector<linear::Study> studies{};
   std::vector<std::string> not_linear{};  ///< controllers
+  std::vector<std::string> no_loop{};     ///< those that play a command
   struct Tuned {
     std::string controller;
     controllers::PidForm pid;

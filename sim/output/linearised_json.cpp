@@ -147,13 +147,16 @@ std::string json_of(const Linearised& all) {
   for (const auto& [controller, pid] : all.tuned)
     document["tuned"].push_back({{"controller", controller}, {"gains", gains_text(all, pid)}});
   document["not_linear"] = all.not_linear;
+  document["no_loop"] = all.no_loop;
   return text_of(document);
 }
 
 std::string bode_csv(const Linearised& all, const Study& study) {
   const auto curves = curves_of(all, study);
   std::string text = "frequency_Hz";
-  for (const Curve& curve : curves) text += fmt::format(",{0}_gain,{0}_phase_deg", curve.name);
+  for (const Curve& curve : curves)
+    text +=
+        fmt::format(",{0}_gain,{0}_phase_deg", &curve == &curves.front() ? curve.name : curve.name + "_loop");
   text += '\n';
   for (std::size_t i = 0; i < curves.front().Hz.size(); ++i) {
     text += domain::write_number(curves.front().Hz[i]);

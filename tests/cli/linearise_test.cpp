@@ -133,6 +133,14 @@ TEST_F(Linearise, LoopsOfALeverHaveTheMarginsThatTheirLinesPromise) {
   EXPECT_NEAR(pasted / point.at("loops").at(1).at("gain_margin").get<double>(), 1.0, 2e-3);  // four digits
 }
 
+/// It shows no margin as small as was asked for: a peak of the gain would have it with a hair more.
+TEST_F(Linearise, AResonanceThatBindsBelowZeroDecibelsIsSaid) {
+  result_of(MCKIBBEN_SOURCE_DIR
+            "/scenarios/rigs/forearm.yaml --load '2 kg' --at '45 deg' --margins '60 deg' --out arm");
+  EXPECT_TRUE(holds(read_text(scratch / "arm" / "table.txt"), "; the resonance at 0.8",
+                    " Hz is just below 0 dB: any more gain, and the phase margin there is 5"));
+}
+
 /// In place of python-control a module that keeps what it is handed.
 TEST_F(Linearise, PythonProgramMakesTheSystem) {
   const auto document = result_of("loops.yaml --at 0.15 --lqr '1 mA' --out made");
@@ -171,6 +179,24 @@ TEST_F(Linearise, StateFeedbackSaysWhatItActsOn) {
   for (const char* file : {"linearise.m", "linearise.py"})
     EXPECT_TRUE(
         holds(read_text(scratch / "two" / file), "it goes to muscle 1 with plus and to muscle 2 with minus"));
+}
+
+TEST_F(Linearise, SaysWhatHasNoLoop) {
+  write_text(scratch / "given.yaml", std::string(loops) +
+                                         "  - {kind: step_current, name: up, start: 8 mA, "
+                                         "moves: []}\n");
+  const auto document = result_of("given.yaml --at 0.15");
+  EXPECT_EQ(document.at("not_linear"), input::Json::array({"static_inverse"}));
+  EXPECT_EQ(document.at("no_loop"), input::Json::array({"up"}));
+  EXPECT_TRUE(holds(read_text(scratch / "out" / "given-linearise" / "table.txt"),
+                    "up: plays a command and has no loop\n"));
+}
+
+TEST_F(Linearise, BodeSaysWhatIsARigsAndWhatALoops) {
+  result_of("loops.yaml --at 0.15 --lqr '1 mA'");
+  EXPECT_TRUE(holds(read_text(scratch / "out" / "loops-linearise" / "bode.csv"),
+                    "rig_gain,rig_phase_deg,soft_loop_gain,soft_loop_phase_deg,wild_loop_gain,",
+                    ",lqr_loop_gain,"));
 }
 
 /// The Bode table is the response of the matrices that are exported, where no load sticks.
@@ -226,7 +252,14 @@ TEST_F(Linearise, SaysWhatItCannotDo) {
                     "--margins: 60 has no unit; it is measured in deg: for example 60 deg"));
   EXPECT_TRUE(holds(run("linearise thesis --load 11").err, "--load: 11 has no unit; it is measured in kg"));
   EXPECT_TRUE(holds(run("linearise thesis --load '500 g' --load '501 kg'").err,
-                    "--load: 501 kg must be above 0 and at most 500 kg"));
+                    "--load: 501 kg must be 0 or more and at most 500 kg"));
+}
+
+/// As the loads of a scenario may be.
+TEST_F(Linearise, TakesAnEmptyHand) {
+  const auto document = result_of("thesis_pair --load '0 kg' --load '1 kg'");
+  EXPECT_EQ(document.at("points").at(0).at("title"), "0 kg at 12 mA and 12 mA");
+  EXPECT_EQ(document.at("points").at(1).at("title"), "1 kg at 12 mA and 12 mA");
 }
 
 /// The rig's file has no error in it.
