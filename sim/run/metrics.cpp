@@ -15,6 +15,8 @@ constexpr double same_instant_s = 1e-9;
 constexpr double least_range =
     1e-4;  // a target that moves less, a fraction of an encoder count, counts as constant
 
+constexpr double least_followed = 0.5;  // of a target's motion; of less there is no delay to speak of
+
 struct Range {
   double low, high;
   double width() const { return high - low; }
@@ -39,6 +41,19 @@ double mean_square_at_shift(const Followed& run, std::size_t shift) {
     sum += error * error;
   }
   return sum / static_cast<double>(run.target.size());
+}
+
+/// Share of the delayed target's motion that the load made, too (2 a - a^2 of a times that motion).
+double followed_at_shift(const Followed& run, std::size_t shift) {
+  const auto count = static_cast<double>(run.target.size());
+  double error = 0.0, errors = 0.0, moved = 0.0, moves = 0.0;
+  for (std::size_t k = 0; k < run.target.size(); ++k) {
+    const double target = run.target[k < shift ? 0 : k - shift], from = target - run.target[0],
+                 off = run.contraction[k] - target;
+    error += off, errors += off * off;
+    moved += from, moves += from * from;
+  }
+  return 1.0 - (errors - error * error / count) / (moves - moved * moved / count);
 }
 
 double share_of(std::span<const double> values, const auto& is_one) {
@@ -75,6 +90,7 @@ std::optional<double> time_lag_s(const Followed& run) {
       static_cast<std::size_t>(std::min_element(misfit.begin(), misfit.end() - 1) - misfit.begin());
 
   if (misfit[most + 1] < misfit[best]) return std::nullopt;  // the least lies outside what was searched
+  if (!(followed_at_shift(run, best) > least_followed)) return std::nullopt;
   double between = 0.0;
   if (best > 0) {
     const double before = misfit[best - 1], after = misfit[best + 1];

@@ -43,8 +43,9 @@ struct Metrics {
 Metrics measure(const Followed& run);
 
 /// The shift, up to 2 s or a quarter of the run, by which the delayed target fits best (least root mean
-/// square), refined between ticks by a parabola. Before time 0 the target counts as held. None if target or
-/// contraction does not move, or if the best shift is the largest.
+/// square), refined between ticks by a parabola. Before time 0 the target counts as held. None if the target
+/// does not move, if less than half of its motion (mean square) is followed, or if the best shift is the
+/// largest.
 std::optional<double> time_lag_s(const Followed& run);
 
 /// Largest excursion past the target's own range, as share of that range: above it once the target has moved

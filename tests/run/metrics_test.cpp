@@ -113,6 +113,20 @@ TEST(Lag, IsNeverNegativeNorBeyondItsLimit) {
   EXPECT_FALSE(time_lag_s(far_behind.view()));  // it lies outside what is searched: not known, not the limit
 }
 
+/// Where it hardly follows, what little it moves had been told to be half a period behind.
+TEST(Lag, OfAMuscleThatHardlyFollowsIsUnknown) {
+  const auto lag = [](double part) {
+    const auto sine = [](double t) { return std::sin(2.0 * std::numbers::pi * t / 2.5); };
+    return time_lag_s(Columns{
+        sampled(1000, [&](double t) { return 0.15 + 0.05 * sine(t); }), sampled(1000, [&](double t) {
+          return 0.1 + 0.05 * part * sine(t - 0.1);
+        })}.view());
+  };
+  EXPECT_NEAR(lag(0.6).value(), 0.1, 0.05);
+  EXPECT_FALSE(lag(0.01));
+  EXPECT_FALSE(lag(-0.01));
+}
+
 TEST(Lag, OfAMuscleThatDoesNotMoveIsUnknown) {
   const Columns run{sampled(100, [](double t) { return 0.1 * t; }), std::vector<double>(100, 0.05)};
   EXPECT_FALSE(time_lag_s(run.view()));
