@@ -251,7 +251,7 @@ class Comparing {
       run.joint = joint_figures(scenario_.rig, run.recording, wanted);
     if (wanted == nullptr) return;
     const controllers::Settings& settings = settings_of(at);
-    if (controllers::part_of<controllers::CalibrationTerms>(settings))
+    if (std::holds_alternative<plant::HangingLoad>(scenario_.rig.mechanics) && !domain::is_given(settings))
       run.unreachable = unreachable_of(run, settings);
     if (!run.failure.empty()) return;
     run.limits = limits_of(settings, briefing_.knowledge[run.target], scenario_.rig);
@@ -260,8 +260,13 @@ class Comparing {
 
   Unreachable unreachable_of(const TrackedRun& run, const controllers::Settings& settings) const {
     const controllers::Knowledge& known = briefing_.knowledge[run.target];
-    const controllers::Reach& reach = known.reach;
-    const controllers::ReachOfLoad limits = reach.at_load(run.load_kg);
+    const bool plans = controllers::part_of<controllers::CalibrationTerms>(settings) != nullptr;
+    const controllers::Reach reach = plans ? known.reach : controllers::Reach{};
+    controllers::ReachOfLoad limits = plans ? reach.at_load(run.load_kg) : controllers::ReachOfLoad{};
+    const controllers::ReachOfLoad ends = ends_of_way(scenario_.rig, run.load_kg);
+    limits.lowest_rising = ends.lowest_rising;
+    limits.lowest_falling = ends.lowest_falling;
+    limits.highest = ends.highest;
     const auto* open = std::get_if<controllers::OpenLoopSettings>(&settings);
     Unreachable found =
         open && open->mode == controllers::OpenLoopMode::triangle
@@ -274,19 +279,24 @@ class Comparing {
 
   /// Why a joint missed its target, if none can follow that.
   std::string beyond_joint_of(const TrackedRun& run) const {
-    if (scenario_.rig.pair() == nullptr || !run.followed()) return "";
+    if (scenario_.rig.pair() == nullptr) return "";
     const auto beyond = data::beyond_joint(scenario_, scenario_.targets[run.target], run.load_kg);
     return beyond.angle + (beyond.angle.empty() || beyond.stiffness.empty() ? "" : "; ") + beyond.stiffness;
   }
 
   void warn() {
     std::vector<std::string> all;
+    std::string beyond;
     for (std::size_t i = 0; i < result_.runs.size(); ++i) {
       const TrackedRun& run = result_.runs[i];
       const std::string& id = run.id;
-      if (run.unreachable.any()) all.push_back(data::warning_of_run(id, run.unreachable.text()));
-      const std::string beyond = beyond_joint_of(run);
-      if (const std::string stood = beyond.empty() ? limit_warning(run, scenario_.rig) : beyond;
+      for (const Unreachable& found : {run.unreachable.heights(), run.unreachable.speeds()})
+        if (found.any()) all.push_back(data::warning_of_run(id, found.text()));
+      if (run.followed() && (i - scenario_.currents.size()) % settings_.size() == 0)
+        beyond = beyond_joint_of(run);  // alike of all that follow this target with this load
+      const bool calibrated =
+          run.followed() && controllers::part_of<controllers::CalibrationTerms>(settings_of(i)) != nullptr;
+      if (const std::string stood = beyond.empty() ? limit_warning(run, scenario_.rig, calibrated) : beyond;
           !stood.empty())
         all.push_back(data::warning_of_run(id, stood));
       if (run.followed())

@@ -24,7 +24,7 @@ struct TrackedRun {
   Recording recording{};
   Metrics metrics{};
   std::string failure{};      ///< why there is no result; empty if there is one
-  Unreachable unreachable{};  ///< what the target asks in vain of a controller that plans its way
+  Unreachable unreachable{};  ///< what the target asks in vain of the rig, or of a controller that plans
   std::optional<controllers::CurrentRange> limits{};  ///< of its current, as the DAC gives them
   std::string id{};                                   ///< what warnings call it
   std::string name{};                                 ///< of its files, without ending

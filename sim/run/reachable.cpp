@@ -54,7 +54,7 @@ class Moving {
       : rig_(rig),
         plant_(rig, load_kg),
         braid_(rig.muscle),
-        weight_N_(load_kg * plant::gravity_m_per_s2),
+        weight_N_((load_kg + rig.joint.load_offset_kg) * plant::gravity_m_per_s2),
         direction_(direction) {}
 
   /// Contraction ratio at which the load comes to rest when the muscle is at that pressure, moving so.
@@ -208,6 +208,10 @@ controllers::Reach reachable(const plant::Rig& true_rig) {
         reach_of(rig, lightest_kg * std::pow(heaviest_kg / lightest_kg, share), reach.ratio));
   }
   return reach;
+}
+
+controllers::ReachOfLoad ends_of_way(const plant::Rig& rig, double load_kg) {
+  return reach_of(rig, load_kg, {});
 }
 
 }  // namespace mckibben::run

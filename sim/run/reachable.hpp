@@ -15,4 +15,7 @@ namespace mckibben::run {
 /// effects but the rubber tube, of which nobody who asks for this knows.
 controllers::Reach reachable(const plant::Rig& rig);
 
+/// The ends alone, with the rig's effects: speeds and lags are empty.
+controllers::ReachOfLoad ends_of_way(const plant::Rig& rig, double load_kg);
+
 }  // namespace mckibben::run

@@ -1,5 +1,6 @@
 // Heights against the ends of the load's way, speeds against the largest there; see the header.
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,9 @@ class Looking {
   void tick(double from, double to, double speed_per_s, bool up) {
     ++found_.of_ticks;
     const double lowest = up ? limits_.lowest_rising : limits_.lowest_falling;
-    const double largest_per_s = reach_.at_ratio(up ? limits_.rising_per_s : limits_.falling_per_s, from);
+    const double largest_per_s =
+        reach_.empty() ? std::numeric_limits<double>::infinity()
+                       : reach_.at_ratio(up ? limits_.rising_per_s : limits_.falling_per_s, from);
     const double asked_per_s = std::abs(speed_per_s);
     constexpr double rounding = 1e-9;
     if (to > limits_.highest + tolerance_)
@@ -57,6 +60,21 @@ void Beyond::note(double asked_here, double limit_here, double ratio_here, bool 
   }
 }
 
+Unreachable Unreachable::heights() const {
+  Unreachable all = *this;
+  all.ticks -= too_fast.ticks;
+  all.ticks_without_current_speed = 0;
+  all.too_fast = {};
+  return all;
+}
+
+Unreachable Unreachable::speeds() const {
+  Unreachable all = *this;
+  all.ticks = too_fast.ticks;
+  all.too_high = all.too_low = {};
+  return all;
+}
+
 std::string Unreachable::text() const {
   std::string what, helps;
   if (too_fast.ticks > 0) {
@@ -69,9 +87,9 @@ std::string Unreachable::text() const {
                             : "a slower target, or a wider valve and hose");
   }
   if (too_high.ticks > 0) {
-    join(what, fmt::format(
-                   "{} too high: it asks a contraction ratio of {:.3f}, the largest reachable one is {:.3f}",
-                   too_high.ticks, too_high.asked, too_high.limit));
+    join(what, fmt::format("{} too high: it asks a contraction ratio of {:.3f}, the largest reachable one, "
+                           "coming slowly, is {:.3f}",
+                           too_high.ticks, too_high.asked, too_high.limit));
     join(helps, "a lower height, a lighter load, or a higher span (and supply) pressure");
   }
   if (too_low.ticks > 0) {

@@ -26,11 +26,15 @@ struct Unreachable {
   Beyond too_fast, too_high, too_low;
 
   bool any() const { return ticks > 0 || ticks_without_current_speed > 0; }
+  /// Parts of it: heights no controller brings a load to; speeds are of the way that one plans.
+  Unreachable heights() const;
+  Unreachable speeds() const;
   /// What is out of reach, by how much, and what would help; without full stop.
   std::string text() const;
 };
 
-/// Looks at a target tick by tick. A height passed by less than `tolerance` [contraction ratio] is none.
+/// Looks at a target tick by tick. A height passed by less than `tolerance` [contraction ratio] is none. Of
+/// an empty `reach` it looks at heights alone.
 Unreachable unreachable(const std::vector<double>& target, double tick_s, const controllers::Reach& reach,
                         const controllers::ReachOfLoad& limits, double tolerance);
 

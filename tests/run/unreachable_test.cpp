@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/run/compare.hpp>
 #include <sim/run/unreachable.hpp>
 
 #include "says.hpp"
@@ -65,8 +66,38 @@ TEST(Unreachable, HeightsDependOnTheDirectionTheyAreReachedFrom) {
   const Unreachable high = look({0.19, 0.195, 0.2, 0.205, 0.21});
   EXPECT_EQ(high.too_high.ticks, 2u);
   EXPECT_EQ(high.too_high.asked, 0.21);
-  EXPECT_TRUE(holds(high.text(), "the largest reachable one is 0.200"));
+  EXPECT_TRUE(holds(high.text(), "the largest reachable one, coming slowly, is 0.200"));
   EXPECT_TRUE(lacks(high.text(), "slower")) << "time does not lift it";
+}
+
+TEST(Unreachable, HeightsAreToldOnceOfAllThatFollowThem) {
+  domain::Scenario scenario;
+  scenario.duration_s = 1.0;
+  scenario.loads_kg = {40.0};
+  scenario.target = controllers::StepsOf<controllers::Height>{.start = {0.02}, .moves = {{0.1, {0.18}}}};
+  controllers::PidSettings one;
+  one.name = "one";
+  one.proportional_mA = 10.0;
+  one.integral_time_s = 0.3;
+  one.derivative_time_s = 0.03;
+  controllers::PidSettings two = one;
+  two.name = "two";
+  two.proportional_mA = 20.0;
+  scenario.controllers = {one, two, controllers::StepCurrent{.start_mA = 8.0, .moves = {}}};
+  const auto said = [&] {
+    std::string all;
+    for (const auto& line :
+         compare(scenario, 1, [](const std::string&, std::size_t, std::size_t) {}).warnings)
+      all += line + "\n";
+    return all;
+  };
+  const std::string warned = said();
+  EXPECT_TRUE(
+      holds(warned, "2 runs (one at 40 kg, two at 40 kg): the target is out of reach at ", " too high"))
+      << warned;
+  EXPECT_TRUE(lacks(warned, "too fast")) << "a controller with feedback is given steps";
+  scenario.loads_kg = {16.0};
+  EXPECT_TRUE(lacks(said(), "out of reach"));
 }
 
 TEST(Unreachable, OnePointAtOneSpeed) {
