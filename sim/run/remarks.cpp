@@ -35,7 +35,7 @@ std::string place_and_share(bool low, const controllers::CurrentRange& limits, c
 }
 
 /// Why it stood there, and the key to change: the controller's own limit, or the valve's.
-std::string cause(bool low, const controllers::CurrentRange& limits, const plant::Rig& rig) {
+std::string cause(bool low, const controllers::CurrentRange& limits, const plant::Rig& rig, bool calibrated) {
   const auto valve = controllers::working_range(knowledge_of(rig, {}));
   const double step_mA = (rig.dac.largest_command - rig.dac.lowest_command) / std::ldexp(1.0, rig.dac.bits);
   if (low && limits.lowest_mA > valve.lowest_mA + step_mA)
@@ -44,14 +44,17 @@ std::string cause(bool low, const controllers::CurrentRange& limits, const plant
   if (!low && limits.highest_mA < valve.highest_mA - step_mA)
     return fmt::format("the rig's valve goes up to {}: raise highest_command",
                        command(valve.highest_mA, rig));
-  return low ? "the valve gives no less pressure: a target that stays higher, a heavier load, a lower "
-               "valve.zero_pressure or a calibration of this rig and load would help"
-             : "the valve gives no more pressure: a lower target, a lighter load, a higher "
-               "valve.span_pressure (and supply_pressure) or a calibration of this rig and load would help";
+  return fmt::format(
+      "the valve gives no {}{} would help",
+      low ? "less pressure: a target that stays higher, a heavier load or a lower "
+            "valve.zero_pressure"
+          : "more pressure: a lower target, a lighter load or a higher valve.span_pressure (and "
+            "supply_pressure)",
+      calibrated ? ", or a calibration of this rig and load," : "");
 }
 
 std::string limit_warning(const Metrics& metrics, const std::optional<controllers::CurrentRange>& limits,
-                          const plant::Rig& rig) {
+                          const plant::Rig& rig, bool calibrated) {
   const double lowest = metrics.at_lowest_current.value_or(0.0);
   const double highest = metrics.at_highest_current.value_or(0.0);
   if (!limits || lowest + highest < mostly) return "";
@@ -62,7 +65,7 @@ std::string limit_warning(const Metrics& metrics, const std::optional<controller
         "(or a longer look_ahead, where the controller has one) or a slower target would help",
         plant::command_key(rig), 100.0 * (lowest + highest));
   return fmt::format("it stood {}; {}", place_and_share(low, *limits, rig, low ? lowest : highest),
-                     cause(low, *limits, rig));
+                     cause(low, *limits, rig, calibrated));
 }
 
 /// "18.4 mm below".
@@ -75,6 +78,22 @@ bool rests_at_the_end(const std::vector<double>& target, double tick_s) {
   const auto ticks = static_cast<std::ptrdiff_t>(rests_s / tick_s);
   return std::ssize(target) > ticks && std::all_of(target.end() - ticks, target.end(),
                                                    [&](double ratio) { return ratio == target.back(); });
+}
+
+/// Whether a load that oscillates stands still in between, as friction makes it: of a sine 3 % are so slow.
+bool sticks_between(const std::vector<double>& contraction, const std::vector<double>& target,
+                    const LimitCycle& cycle, double tick_s) {
+  constexpr double slow = 0.05, sticks = 0.25;
+  auto end = static_cast<std::size_t>(std::lround(cycle.from_s / tick_s)) + 1;
+  while (end < target.size() && target[end] == target[end - 1]) ++end;
+  const auto ticks = std::min(static_cast<std::size_t>(std::lround(2.0 * cycle.period_s / tick_s)), end - 1);
+  std::vector<double> steps;
+  for (std::size_t k = end - ticks; k < end; ++k)
+    steps.push_back(std::abs(contraction[k] - contraction[k - 1]));
+  const double largest = std::ranges::max(steps);
+  return static_cast<double>(std::ranges::count_if(steps, [&](double step) {
+           return step < slow * largest;
+         })) > sticks * static_cast<double>(ticks);
 }
 
 }  // namespace
@@ -127,14 +146,14 @@ std::string counted_words(const domain::Scenario& scenario, const Comparison& co
                          : ", from the target's first move on";
 }
 
-std::string limit_warning(const TrackedRun& run, const plant::Rig& rig) {
+std::string limit_warning(const TrackedRun& run, const plant::Rig& rig, bool calibrated) {
   if (run.joint && run.followed() && run.failure.empty() && run.joint->at_limit >= mostly)
     return fmt::format(
         "some {} stood at an end of what its valve answers to for {:.0f} % of the time: the stiffness, "
         "or "
         "co_contraction, leaves the angle nothing, or both need more than the valves have",
         plant::command_key(rig), 100.0 * run.joint->at_limit);
-  return limit_warning(run.metrics, run.limits, rig);
+  return limit_warning(run.metrics, run.limits, rig, calibrated);
 }
 
 std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
@@ -232,12 +251,15 @@ std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const con
       cycle->from_s, 1e3 * cycle->amplitude * rig.muscle.rest_length_m, cycle->period_s);
   if (const auto* pid = controllers::part_of<controllers::PidTerms>(settings))
     text += fmt::format(
-        "; a lower proportional{}, a longer integral_time or, against friction, a dead_zone of "
-        "{:.2g} would help: linearise shows the margins",
+        "; a lower proportional{}{} would help: linearise shows the margins",
         pid->proportional_mA
             ? fmt::format(" (it is {:.4g} {})", *pid->proportional_mA, name_of(rig.command_unit()))
             : "",
-        2.0 * cycle->amplitude);
+        sticks_between(contraction, wanted.ratios, *cycle, rig.tick_s)
+            ? fmt::format(
+                  ", a longer integral_time or, as friction holds it in between, a dead_zone of {:.2g}",
+                  2.0 * cycle->amplitude)
+            : " or a longer integral_time");
   return text;
 }
 
@@ -255,7 +277,7 @@ bool in_doubt(const Comparison& comparison, std::string_view controller) {
 }
 
 std::string tuning_warning(const TunedController& tuned, const plant::Rig& rig) {
-  const std::string limit = limit_warning(tuned.metrics, tuned.limits, rig);
+  const std::string limit = limit_warning(tuned.metrics, tuned.limits, rig, false);
   return fmt::format(
       "its tuning gained nothing: the cost is {:.3g}, without any feedback {:.3g}; {}", tuned.tuned.cost,
       *tuned.idle_cost,

@@ -32,7 +32,8 @@ bool follows_nothing(const domain::Scenario& scenario, const Comparison& compari
 std::string counted_words(const domain::Scenario& scenario, const Comparison& comparison);
 
 /// The same of one run, with what would help: for a warning. Empty unless it stood there `mostly`.
-std::string limit_warning(const TrackedRun& run, const plant::Rig& rig);
+/// `calibrated`: its controller goes by a calibration.
+std::string limit_warning(const TrackedRun& run, const plant::Rig& rig, bool calibrated = false);
 
 /// Of an open loop with a calibration that ends off a resting target by more than a fifth of the target's
 /// range: by how much, the likely causes, and the keys to write. Empty if it does not.

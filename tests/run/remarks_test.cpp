@@ -39,6 +39,9 @@ TEST(Remarks, NameTheKeyThatWouldHelp) {
   EXPECT_EQ(limit_warning(stood(8.0, 0.4, 0.0), rig), "");
   EXPECT_NE(limit_warning(stood(8.0, 0.6, 0.0), rig).find("valve.zero_pressure"), std::string::npos);
   EXPECT_NE(limit_warning(stood(8.0, 0.0, 0.6), rig).find("valve.span_pressure"), std::string::npos);
+  EXPECT_EQ(limit_warning(stood(8.0, 0.0, 0.6), rig).find("calibration"), std::string::npos);
+  EXPECT_NE(limit_warning(stood(8.0, 0.0, 0.6), rig, true).find(", or a calibration of this rig and load,"),
+            std::string::npos);
   rig.valve.zero_command = 0.0;
   EXPECT_NE(limit_warning(stood(8.0, 0.6, 0.0), rig).find("goes down to 0 mA: lower lowest_command"),
             std::string::npos);
@@ -162,19 +165,25 @@ TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
   TrackedRun run{.load_kg = 16.0, .controller = "pid"};
   controllers::PidSettings settings;
   settings.proportional_mA = 120.0;
+  double flat = 1.0;  // a smaller part of the swing: the load sticks at its ends
   const auto swinging = [&](double amplitude) {
     run.recording.samples.clear();
     for (int k = 0; k < 400; ++k) {
       run.recording.samples.emplace_back();
-      run.recording.samples.back().state.joint.contraction_ratio = 0.1 + amplitude * std::sin(0.2 * k);
+      run.recording.samples.back().state.joint.contraction_ratio =
+          0.1 + amplitude * std::clamp(std::sin(0.2 * k), -flat, flat);
     }
     return cycle_warning(run, wanted, settings, rig);
   };
   EXPECT_EQ(swinging(4e-4), "");
   EXPECT_EQ(swinging(4e-3),
             "it oscillates where its target rests from 0 s on, by ±1.2 mm with a period of 0.38 s; a lower "
-            "proportional (it is 120 mA), a longer integral_time or, against friction, a dead_zone of 0.008 "
-            "would help: linearise shows the margins");
+            "proportional (it is 120 mA) or a longer integral_time would help: linearise shows the margins");
+  flat = 0.5;
+  EXPECT_NE(
+      swinging(4e-3).find("a longer integral_time or, as friction holds it in between, a dead_zone of "),
+      std::string::npos);
+  flat = 1.0;
   run.limits = {4.0, 20.0};
   run.metrics.at_lowest_current = 0.6;
   rig.valve.command_unit = plant::CommandUnit::V;
