@@ -15,7 +15,7 @@ constexpr double same_instant_s = 1e-9;
 constexpr double least_range =
     1e-4;  // a target that moves less, a fraction of an encoder count, counts as constant
 
-constexpr double least_followed = 0.5;  // of a target's motion; of less there is no delay to speak of
+constexpr double least_followed = 0.2;  // of a target's motion; of less there is no delay to speak of
 
 struct Range {
   double low, high;

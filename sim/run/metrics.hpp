@@ -44,7 +44,7 @@ Metrics measure(const Followed& run);
 
 /// The shift, up to 2 s or a quarter of the run, by which the delayed target fits best (least root mean
 /// square), refined between ticks by a parabola. Before time 0 the target counts as held. None if the target
-/// does not move, if less than half of its motion (mean square) is followed, or if the best shift is the
+/// does not move, if less than a fifth of its motion (mean square) is followed, or if the best shift is the
 /// largest.
 std::optional<double> time_lag_s(const Followed& run);
 
