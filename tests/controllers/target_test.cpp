@@ -130,7 +130,7 @@ TEST(TargetRules, NameTheKeyThatIsWrong) {
   EXPECT_EQ(complaints(Steps{ratio(0.0), {{1.0, ratio(0.1)}, {1.0, ratio(0.2)}}}), Keys{"moves"});
   EXPECT_EQ(complaints(Ramps{ratio(0.0), {{1.0, 1.5, ratio(0.1)}, {2.0, 1.0, ratio(0.2)}}}), Keys{"moves"});
   EXPECT_EQ(complaints(Steps{ratio(30.0), {}}), Keys{"start"});
-  EXPECT_EQ(complaints(Move{1.0, ratio(-0.1)}), Keys{"to"});
+  EXPECT_EQ(complaints(Move{1.0, ratio(-1.1)}), Keys{"to"});
   EXPECT_EQ(complaints(Triangle{ratio(0.2), ratio(0.1), 1.0, 0.0}), Keys{"high"});
   EXPECT_EQ(complaints(Triangle{ratio(0.1), metres(0.1), 1.0, 0.0}), Keys{"high"});
   EXPECT_EQ(complaints(Sine{ratio(0.1), ratio(0.0), 1.0, 0.0}), Keys{"amplitude"});
