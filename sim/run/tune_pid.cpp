@@ -97,12 +97,13 @@ Tuned found_from(Search& search, const TuningOptions& options) {
   return search.best;
 }
 
-/// The same with half the proportional gain, and half of that, for as long as it costs less: gains that make
-/// another rig swing lead a simplex to the best of swings. Where it costs more at once it is not worse.
-bool begins_lower(Search& search, double start_cost, const TuningOptions& options) {
+/// With half the proportional gain, and half of that, for as long as it costs less: gains that make another
+/// rig swing lead a simplex to the best of swings. Whether that costs less than `found`, before any search.
+bool begins_lower(Search& search, const Tuned& found, const TuningOptions& options) {
   if (search.open.front() != &Gains::proportional_mA) return false;
   Gains lower = search.gains;
-  for (double least = start_cost; (lower.proportional_mA *= 0.5) > options.lowest.proportional_mA;) {
+  double least = found.start_cost.value_or(very_bad);
+  while ((lower.proportional_mA *= 0.5) > options.lowest.proportional_mA) {
     const Gains before = std::exchange(search.gains, lower);
     if (const double cost = search.evaluate(); cost < least) {
       least = cost;
@@ -111,7 +112,7 @@ bool begins_lower(Search& search, double start_cost, const TuningOptions& option
     search.gains = before;
     break;
   }
-  return search.gains.proportional_mA < options.start.proportional_mA;
+  return least < found.cost;
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ Tuned tune(const std::function<double(const Gains&)>& cost, const GivenGains& gi
   } else {
     Search lower = search;
     best = found_from(search, options);
-    const bool begins = begins_lower(lower, best.start_cost.value_or(very_bad), options);
+    const bool begins = begins_lower(lower, best, options);
     const Tuned other = begins ? found_from(lower, options) : lower.best;
     if (other.cost < best.cost) best.cost = other.cost, best.gains = other.gains;
     best.evaluations += other.evaluations;

@@ -1,6 +1,6 @@
 // Finds the PID gains that a scenario leaves open: Nelder-Mead (Nelder & Mead 1965, from NLopt) on the
 // logarithms of the gains, from a fixed start and without chance, so that the same cost gives the same gains.
-// Where less gain than the start's costs less, a second search begins there.
+// Where less gain than the start's costs less than what was found, a second search begins there.
 #pragma once
 
 #include <functional>
