@@ -23,6 +23,11 @@ bool is_sign(char c) {
   return c == '.' || c == ',';
 }
 
+/// Of what nearly all numbers are made of; asked of every character of a table.
+bool is_plain(char c) {
+  return is_number_digit(c) || is_sign(c) || c == '+' || c == '-' || c == 'e' || c == 'E';
+}
+
 /// One decimal sign, groups of three digits, or a date such as 03.05.2024; "1,2,3" are three numbers.
 bool signs_fit(std::string_view digits) {
   const auto points = std::ranges::count(digits, '.'), commas = std::ranges::count(digits, ',');
@@ -65,7 +70,7 @@ std::string without_groups(const std::string& text) {
 /// A number as it is read here, where a program writes another sign, no 0 before the point, D for E, 0x of
 /// counts, spaces between thousands, a spread or a remark behind it; none where it is plain, or no number.
 std::optional<std::string> respelt(std::string_view cell) {
-  const bool plain = cell.find_first_not_of("0123456789.,+-eE") == std::string_view::npos;
+  const bool plain = std::ranges::all_of(cell, is_plain);
   const std::size_t begin = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
   const bool bare_point = begin + 1 < cell.size() && is_sign(cell[begin]) && is_number_digit(cell[begin + 1]);
   const bool padded = begin + 1 < cell.size() && cell[begin] == '0' && is_number_digit(cell[begin + 1]);
@@ -146,10 +151,28 @@ std::optional<Spelled> spelled(std::string_view number) {
   return point ? Spelled::decimal_point : Spelled::decimal_comma;
 }
 
+/// As most cells are: a sign, digits, one decimal sign and digits, an exponent.
+bool is_plain_number(std::string_view text) {
+  std::size_t at = 0;
+  const auto digits = [&] {
+    const std::size_t from = at;
+    while (at < text.size() && is_number_digit(text[at])) ++at;
+    return at > from;
+  };
+  const auto skip = [&](auto wanted) { return at < text.size() && wanted(text[at]) ? ++at : 0; };
+  const auto plus_or_minus = [](char c) { return c == '+' || c == '-'; };
+  skip(plus_or_minus);
+  if (!digits() || (skip(is_sign) && !digits())) return false;
+  if (!skip([](char c) { return c == 'e' || c == 'E'; })) return at == text.size();
+  skip(plus_or_minus);
+  return digits() && at == text.size();
+}
+
 }  // namespace
 
 bool is_number_like(std::string_view text) {
   if (text.empty()) return false;
+  if (is_plain_number(text)) return true;
   const std::optional<std::string> other = respelt(text);
   if (other) text = *other;
   std::string_view bare = text;
@@ -158,7 +181,9 @@ bool is_number_like(std::string_view text) {
       !bare.empty() && (is_number_digit(bare.front()) ||
                         (bare.size() > 1 && is_sign(bare.front()) && is_number_digit(bare[1])));
   if (!begins || bare.ends_with(',')) return false;
-  const std::size_t end = std::min(bare.find_first_not_of("0123456789.,'"), bare.size());
+  const auto end = static_cast<std::size_t>(
+      std::ranges::find_if_not(bare, [](char c) { return is_number_digit(c) || is_sign(c) || c == '\''; }) -
+      bare.begin());
   if (!signs_fit(bare.substr(0, end))) return false;
   std::string_view rest = bare.substr(end);
   if (rest.starts_with('e') || rest.starts_with('E')) {
