@@ -314,6 +314,7 @@ struct Diagnosis {
   std::string cannot_tell{};            ///< why data cannot decide, where that is known
   std::string to_measure{};             ///< what would decide then: "at least four runs would help, ..."
   bool contradicts_sheet = false;       ///< the answer needs parameters that the sheet all but rules out
+  plant::Rig described{};               ///< as the data set has it; contraction ratios go by its rest length
   plant::Rig corrected{};
   double false_alarm_rate = 0.0;  ///< that the thresholds were set for
   std::uint64_t seed = 1;

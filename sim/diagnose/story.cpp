@@ -52,7 +52,7 @@ std::string sentence_of(const std::string& effect, const plant::Effects& of_rig)
 }
 
 std::string amount_in_words(const Diagnosis& d, double value) {
-  return data::amount_of(d.gap.judged, value, d.corrected);
+  return data::amount_of(d.gap.judged, value, d.described);
 }
 std::string what_is_judged(const Diagnosis& d) {
   switch (d.gap.judged) {

@@ -48,6 +48,7 @@ class HandingOver {
 
   Diagnosis operator()() {
     result_.seed = reporting_.seed;
+    result_.described = data_.rig;
     result_.false_alarm_rate = diagnose::thresholds.tell.false_alarm_rate;
     report_data();
     result_.verdict = verdict();

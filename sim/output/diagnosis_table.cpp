@@ -26,7 +26,7 @@ std::string warnings(const Diagnosis& diagnosis) {
 std::string bench(const Diagnosis& diagnosis) {
   Grid grid({"fault", "runs", "size", "95 % interval", "in the data set"}, 5);
   for (const auto& fault : diagnosis.bench) {
-    const Readable shown = readable(fault, diagnosis.corrected);
+    const Readable shown = readable(fault, diagnosis.described);
     grid.add({fault.name, fault.runs.size() == diagnosis.runs.size() ? "all" : listed(fault.runs),
               shown.value, shown.interval, fault.write});
   }

@@ -34,7 +34,7 @@ std::string found_row(const std::string& of, const std::string& name, const Fitt
 std::string found(const Diagnosis& diagnosis) {
   std::string rows;
   for (const auto& fault : diagnosis.bench) {
-    const auto shown = readable(fault, diagnosis.corrected);
+    const auto shown = readable(fault, diagnosis.described);
     rows += row(fault.name, {fault.words, shown.value, shown.interval});
   }
   std::string marks;

@@ -107,7 +107,7 @@ std::vector<Found> found_in(const Diagnosis& diagnosis) {
           "{} runs", std::ranges::count(diagnosis.bench, fault.name, &diagnose::BenchFault::name));
     else
       list.push_back({fault.of_loads() ? Part::guide : Part::encoder, fault.name,
-                      output::readable(fault, diagnosis.corrected).value});
+                      output::readable(fault, diagnosis.described).value});
   }
   if (!diagnosis.residual_law.empty())
     list.push_back(

@@ -96,6 +96,16 @@ TEST(Story, TellsOnlyNumbersThatMovedAndErrorsByADecimal) {
   EXPECT_NE(text.find("falls from 12.6 N to 0.51 N"), std::string::npos) << text;
 }
 
+// As the table does: readings in mm became ratios by it.
+TEST(Story, TellsErrorsByTheRestLengthThatReadingsGoBy) {
+  Diagnosis d;
+  d.verdict = Verdict::recalibrate;
+  d.gap.nominal_rmse = 0.02;
+  d.described.muscle.rest_length_m = 0.25;
+  d.corrected.muscle.rest_length_m = 0.2;
+  EXPECT_NE(because(d).find("from 5 mm to"), std::string::npos) << because(d);
+}
+
 // 0.077 mm are not "within noise" of 0.042 mm without a word on the difference.
 TEST(Story, SaysWhatOtherParametersWouldLeaveWhereTheRigAsDescribedLeavesMoreThanNoise) {
   Diagnosis d;
@@ -104,7 +114,7 @@ TEST(Story, SaysWhatOtherParametersWouldLeaveWhereTheRigAsDescribedLeavesMoreTha
   EXPECT_TRUE(because(d).starts_with("Model and data agree to within noise: on runs held out")) << because(d);
   EXPECT_EQ(because(d).find("recalibrated"), std::string::npos);
   d.gap.nominal_rmse = d.gap.corrected_rmse = 1.8e-4;
-  const std::string text = because(d), height = data::amount_of(d.gap.judged, 0.9e-4, d.corrected);
+  const std::string text = because(d), height = data::amount_of(d.gap.judged, 0.9e-4, d.described);
   EXPECT_NE(text.find("the ± of the parameters"), std::string::npos) << text;
   EXPECT_NE(text.find("(" + height + " with recalibrated parameters; the instruments cannot see below"),
             std::string::npos)
