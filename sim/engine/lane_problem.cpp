@@ -2,6 +2,17 @@
 #include <sim/engine/lane_problem.hpp>
 
 namespace mckibben::engine {
+namespace {
+
+plant::Memory<Lanes> blank() {
+  plant::Memory<Lanes> memory;
+  memory.side.fill(Lanes(0.0));
+  memory.opposite.fill(Lanes(0.0));
+  return memory;
+}
+const plant::Memory<Lanes> none_at_all = blank();  // filled once: it is two kilobytes a side
+
+}  // namespace
 
 template <plant::Memories memories, int sides, Books books>
 Mask LaneProblem<memories, sides, books>::rates(const plant::PlantOf<Lanes>& plant,
@@ -14,14 +25,17 @@ Mask LaneProblem<memories, sides, books>::rates(const plant::PlantOf<Lanes>& pla
     state.joint = {at(y, 0, block), at(y, 1, block)};
     state.side = {at(y, 2, block), at(y, 3, block), at(y, 4, block)};
     if constexpr (sides == 2) state.opposite = {at(y, 5, block), at(y, 6, block), at(y, 7, block)};
-    plant::Memory<Lanes> memory;
-    memory.side.fill(Lanes(0.0));
-    if constexpr (sides == 2) memory.opposite.fill(Lanes(0.0));
     constexpr std::size_t each = L::of_side;
-    for (std::size_t i = 0; i < each; ++i) {
-      memory.side[i] = at(y, L::states + i, block);
-      if constexpr (sides == 2) memory.opposite[i] = at(y, L::states + each + i, block);
+    plant::Memory<Lanes> carried;
+    if constexpr (each > 0) {
+      carried.side.fill(Lanes(0.0));
+      if constexpr (sides == 2) carried.opposite.fill(Lanes(0.0));
     }
+    for (std::size_t i = 0; i < each; ++i) {
+      carried.side[i] = at(y, L::states + i, block);
+      if constexpr (sides == 2) carried.opposite[i] = at(y, L::states + each + i, block);
+    }
+    const plant::Memory<Lanes>& memory = each > 0 ? carried : none_at_all;
     inside = plant.template in_domain<sides>(state, memory);
     const auto now = plant.template moment<sides>(state, memory, held);
     const auto slopes = plant.template rates<sides>(state, now);
