@@ -88,16 +88,18 @@ Masses masses_in(const std::string& text, bool is_name) {
     const bool either = unit == "g" && fraction.size() == of_thousands && match.str(3).front() == ',';
     const auto number_at = static_cast<std::size_t>(match.position(2));
     const std::string before = text.substr(0, number_at), behind = match.suffix();
-    // Of grams only what stands by itself: run_250g_2, not exp2g nor 10g_sensor.
+    // Of a few grams only what stands by itself: run_50g_2, not exp2g nor 10g_shock; 520g_tri is a load.
+    constexpr std::size_t of_hundreds = 3;
     const Words after = input::words_of(behind);
     const Words words = input::words_of(before);
-    const bool apart = std::ranges::all_of(words,
-                                           [](const std::string& word) {
-                                             return begins_a_number(word) || word == "m" || word == "mass" ||
-                                                    names_a_run(word);
-                                           }) &&
-                       (after.empty() || begins_a_number(after[0]) ||
-                        names_a_run(after[0].substr(0, after[0].find_first_of("0123456789"))));
+    const bool apart = whole.size() >= of_hundreds ||
+                       (std::ranges::all_of(words,
+                                            [](const std::string& word) {
+                                              return begins_a_number(word) || word == "m" || word == "mass" ||
+                                                     names_a_run(word);
+                                            }) &&
+                        (after.empty() || begins_a_number(after[0]) ||
+                         names_a_run(after[0].substr(0, after[0].find_first_of("0123456789")))));
     const Called by = called(before, behind);
     const bool doubtful = either || is_of_another(before, behind) || is_a_part(before, behind);
     if (by == Called::load && !doubtful)
@@ -135,9 +137,10 @@ std::optional<LoadGuess> load_of(const UnknownTable& table) {
   if (loads.size() == 1) return LoadGuess{loads.front(), reason};
   const std::vector<std::string>& several = loads.empty() ? others : loads;
   if (several.empty()) return std::nullopt;
-  return LoadGuess{std::string(domain::fill_in),
-                   fmt::format("its name and the lines above it say {}: which of them is the load?",
-                               fmt::join(several, " and "))};
+  return LoadGuess{
+      std::string(domain::fill_in),
+      fmt::format("its name or the lines above it say {}: {} the load?", fmt::join(several, " and "),
+                  several.size() == 1 ? "is it" : "which of them is")};
 }
 
 }  // namespace mckibben::recognise

@@ -70,6 +70,9 @@ TEST(Loads, StandInNames) {
   EXPECT_EQ(load_in("m5,5kg"), "5.5 kg");
   EXPECT_EQ(load_in("run2_11p138_kg"), "11.138 kg");
   EXPECT_EQ(load_in("lift 500g"), "500 g");
+  EXPECT_EQ(load_in("Messung_520g_tri"), "520 g");
+  EXPECT_EQ(load_in("Messung_5200_g_tri"), "5200 g");
+  EXPECT_EQ(load_in("Messung_20g_tri"), std::nullopt) << "of grease, of a shock";
   EXPECT_EQ(load_in("Last: 20 LB"), "20 lb");
   for (const char* none : {"run5", "5kgf", "p10bar", "kg"}) EXPECT_EQ(load_in(none), std::nullopt) << none;
 }
