@@ -76,9 +76,9 @@ constexpr const char* as_one_column =
 }  // namespace
 
 std::string of_two(const domain::Quantity& quantity, bool duties) {
-  if (quantity.key == "muscle_pressure")
-    return "; of two muscles write muscle_pressure_1 and muscle_pressure_2, and angle";
   if (quantity.is_command() && duties) return fmt::format("; {}, and name it here", as_one_column);
+  if (quantity.key == "muscle_pressure" || quantity.is_command())
+    return fmt::format("; of two muscles write {0}_1 and {0}_2, and angle", quantity.key);
   return "";
 }
 

@@ -127,16 +127,17 @@ const std::vector<Vocabulary>& vocabularies() {
         "pist", "istdruck", "feedback", "pabs"},
        {"druck"}},
       {"contraction",
-       {"contraction",  "kontraktion", "strain",   "eps",   "epsilon",       "laser",        "distance",
-        "abstand",      "position",    "pos",      "weg",   "hub",           "travel",       "length",
-        "länge",        "laenge",      "x",        "y",     "stroke",        "encoder",      "counts",
-        "wheel",        "angle",       "theta",    "phi",   "winkel",        "rope",         "height",
-        "höhe",         "lvdt",        "poti",     "pot",   "potentiometer", "displacement", "stringpot",
-        "string",       "wire",        "drawwire", "cable", "elongation",    "extension",    "extensometer",
-        "verschiebung", "auslenkung",  "drehgeber"},
+       {"contraction",  "kontraktion", "strain",        "eps",          "epsilon",     "laser",
+        "distance",     "abstand",     "position",      "pos",          "weg",         "hub",
+        "travel",       "length",      "länge",         "laenge",       "x",           "y",
+        "stroke",       "encoder",     "counts",        "wheel",        "angle",       "theta",
+        "phi",          "winkel",      "rope",          "height",       "höhe",        "lvdt",
+        "poti",         "pot",         "potentiometer", "displacement", "stringpot",   "string",
+        "wire",         "drawwire",    "cable",         "elongation",   "extension",   "extensometer",
+        "verschiebung", "auslenkung",  "drehgeber",     "verkürzung",   "verkuerzung", "hoehe"},
        {"laser", "abstand", "weg", "winkel", "länge", "höhe", "position", "seil", "poti"}},
       {"command",
-       {"u", "i", "current", "strom", "voltage", "spannung", "valve", "ventil"},
+       {"u", "u1", "u2", "i", "i1", "i2", "current", "strom", "voltage", "spannung", "valve", "ventil"},
        {"strom", "spannung", "ventil"},
        true},
       duties()};
@@ -357,8 +358,9 @@ Heading heading_of(const UnknownColumn& column) {
   if (heading.times.empty() && column.unit.empty()) heading.times = number_of_unit(split);
   static const Vocabulary lengths{"contraction", {"length", "länge", "laenge"}, {"länge"}};
   heading.is_length = !lengths.told_by(words).empty();
-  static const Vocabulary contractions{
-      "contraction", {"contraction", "contracción", "contração", "contrazione"}, {"kontraktion"}};
+  static const Vocabulary contractions{"contraction",
+                                       {"contraction", "contracción", "contração", "contrazione"},
+                                       {"kontraktion", "verkürzung", "verkuerzung"}};
   heading.is_contraction = !contractions.told_by(words).empty();
   heading.is_duty = !duties().told_by(words).empty();
   return heading;

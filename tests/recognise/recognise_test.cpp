@@ -54,6 +54,8 @@ TEST(Headings, WordsAndUnitsTell) {
                           {"Offset [V]", "", "", "V"},
                           {"AI3 [N]", "", "force", "N"},
                           {"p_m", "", "muscle_pressure", ""},
+                          {"I1_mA", "", "command", "mA"},
+                          {"Verkuerzung [mm]", "", "contraction", "mm"},
                           {"supply pressure [bar]", "", "", "bar"},
                           {"Temperatur", "K", "", "K"},
                           {"AI3", "", "", ""},
@@ -62,6 +64,7 @@ TEST(Headings, WordsAndUnitsTell) {
     EXPECT_EQ(heading.quantity == nullptr ? "" : heading.quantity->key, one.key) << one.name;
     EXPECT_EQ(heading.unit, one.unit) << one.name;
   }
+  EXPECT_TRUE(heading_of({"Verkürzung", "", false, {}}).is_contraction);
   EXPECT_FALSE(heading_of({"laser", "V", false, {}}).unit_fits) << "a sensor's voltage is no length";
 }
 
