@@ -70,20 +70,43 @@ bool are_late(const Values& a, const Values& b) {
          std::abs(b.back() - a.back()) < 0.1 * whole;
 }
 
+/// Between two rows, read in that unit [s]; 0 where stamps fall.
+double step_of(const Values& stamps, const std::string& unit) {
+  const Clock clock = clock_of(stamps);
+  Values step{clock.ascends ? clock.step_s : 0.0};
+  input::convert_units(step, unit, "s");
+  return step.front();
+}
+
+/// What a recorder takes between two rows. A second is doubted: a millisecond looks like it in the wrong
+/// unit.
+bool is_a_tick(double row_s) {
+  return row_s >= shortest_tick_s && row_s < longest_tick_s;
+}
+
+/// The unit in which rows would be a tick apart.
+std::string or_which(const Values& stamps) {
+  for (const char* unit : {"s", "ms", "us"})
+    if (const double row_s = step_of(stamps, unit); is_a_tick(row_s))
+      return fmt::format(", or {}, with rows {:.6g} ms apart", unit, 1e3 * row_s);
+  return "";
+}
+
 Told unit_of(const UnknownColumn& column, const Heading& heading, const SaidStep& said) {
   if (column.is_date) return {std::string(input::date_unit), "it holds dates"};
   const std::string unit = unit_of_epoch(column.epoch);
   if (!heading.other_unit.empty()) return two_units(heading);
   if (heading.unit_fits && said.step_s > 0.0) {
     constexpr double alike = 1.02;
-    const Clock clock = clock_of(column.values);
-    Values step{clock.ascends ? clock.step_s : 0.0};
-    input::convert_units(step, heading.unit, "s");
-    if (const double ratio = step.front() / said.step_s;
-        step.front() > 0.0 && (ratio > alike || alike * ratio < 1.0))
+    const double row_s = step_of(column.values, heading.unit);
+    if (const double ratio = row_s / said.step_s; row_s > 0.0 && (ratio > alike || alike * ratio < 1.0))
       return left_open(fmt::format("the table says {}, so that rows are {:.6g} ms apart; and {}",
-                                   heading.unit, 1e3 * step.front(), said.reason));
+                                   heading.unit, 1e3 * row_s, said.reason));
   }
+  if (const double row_s = heading.unit_fits && unit.empty() ? step_of(column.values, heading.unit) : 0.0;
+      row_s > 0.0 && !is_a_tick(row_s))
+    return left_open(fmt::format("the table says {0}, so that rows are {1:.6g} ms apart: is it {0}{2}?",
+                                 heading.unit, 1e3 * row_s, or_which(column.values)));
   if (heading.unit_fits && (unit.empty() || unit == heading.unit))
     return {heading.unit, fmt::format("the table says {}", heading.unit)};
   if (heading.unit_fits)
@@ -112,7 +135,7 @@ ColumnGuess guess_of_time(const UnknownColumn& column, const Heading& heading, c
     guess.factor = decimals_or_thousands(column.either);
   else if (!heading.times.empty())
     guess.factor = left_open(fmt::format("its heading says {}: how many of its unit is one", heading.times));
-  else if (!heading.other_unit.empty())
+  else if (!heading.other_unit.empty() || (heading.unit_fits && guess.unit.open()))
     guess.factor = unit_of_the_map();
   if (!column.is_date && are_intervals(column.values))
     guess.input = Told{"interval", "its numbers are alike and do not ascend: the time since the row before"};

@@ -26,16 +26,17 @@ bool is_misspelt(const std::string& unit) {
   return unit.starts_with("mPa");
 }
 
-std::string_view unit_of_example(const domain::Quantity& quantity) {
-  return quantity.key == "contraction" ? "mm" : quantity.unit();
+std::string_view unit_of_example(const Heading& heading) {
+  if (heading.is_voltage) return "V";
+  return heading.quantity->key == "contraction" ? "mm" : heading.quantity->unit();
 }
 
 /// What can stand there, also of an ADC's numbers.
-std::string example_of(const domain::Quantity& quantity) {
+std::string example_of(const Heading& heading) {
   return fmt::format(
       "write one, as {0}; of numbers of an ADC {0} with factor: the {0} of one step, and zero: what it reads "
       "at 0 {0}",
-      unit_of_example(quantity));
+      unit_of_example(heading));
 }
 
 Told unit_told(const Heading& heading) {
@@ -45,12 +46,12 @@ Told unit_told(const Heading& heading) {
   if (!heading.unknown.empty())
     return left_open(
         fmt::format("the table says ({}), which is no unit that is known here", heading.unknown));
-  if (heading.unit.empty()) return left_open("the table says no unit: " + example_of(*heading.quantity));
+  if (heading.unit.empty()) return left_open("the table says no unit: " + example_of(heading));
   if (is_of_a_sensor(heading.unit) && !heading.quantity->is_command() && heading.quantity->key != "time")
     return left_open(fmt::format(
         "the table says {0}, which its sensor gives: write unit: {1}, factor: the {1} of one {0}, and zero: "
         "what it reads at 0 {1}",
-        heading.unit, unit_of_example(*heading.quantity)));
+        heading.unit, unit_of_example(heading)));
   return left_open(
       fmt::format("the table says {}, which is none of {}: write unit, zero and factor of the sensor",
                   heading.unit, heading.quantity->key));

@@ -12,6 +12,8 @@ namespace mckibben::recognise {
 using Values = std::vector<double>;
 struct Heading;
 
+constexpr double shortest_tick_s = 1e-4, longest_tick_s = 1.0;  ///< that a rig may have
+
 /// The map of tables whose columns have the same names.
 MapGuess map_of(const std::vector<const UnknownTable*>& tables, bool rig_is_known, const KnownRig& rig);
 

@@ -362,6 +362,8 @@ Heading heading_of(const UnknownColumn& column) {
                                        {"contraction", "contracción", "contração", "contrazione"},
                                        {"kontraktion", "verkürzung", "verkuerzung"}};
   heading.is_contraction = !contractions.told_by(words).empty();
+  static const Vocabulary voltages{"command", {"voltage", "volts"}, {"spannung"}};
+  heading.is_voltage = heading.quantity->is_command() && !voltages.told_by(words).empty();
   heading.is_duty = !duties().told_by(words).empty();
   return heading;
 }

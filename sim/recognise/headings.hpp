@@ -19,6 +19,7 @@ struct Heading {
   std::string reason;                          ///< which words tell
   bool is_length = false;                      ///< the muscle's, which falls as it contracts
   bool is_contraction = false;                 ///< which rises as the muscle contracts
+  bool is_voltage = false;                     ///< a command that a word calls a voltage
   bool is_duty = false;                        ///< of valves that are open or shut
   std::string other_unit{};  ///< the heading says another one than the line below it; empty: it does not
   std::string unknown{};     ///< in its brackets, and no unit that is known; empty: nothing

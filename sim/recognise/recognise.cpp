@@ -19,7 +19,6 @@ namespace mckibben::recognise {
 namespace {
 
 constexpr double even_s = 1e-6, even_ratio = 2e-7;  // as readers have it of ticks
-constexpr double shortest_tick_s = 1e-4, longest_tick_s = 1.0;
 
 /// Understands tables that have been read.
 class Recogniser {
@@ -258,9 +257,8 @@ class Recogniser {
               "or leave this out, and give each run its load"));
     if (first_map().rows && first_map().rows->key == "rows_are_ticks")
       set("tick", said_tick());
-    else if (step_s_ > 0.0)
-      set("tick",
-          {fmt::format("{:.6g} ms", 1e3 * std::clamp(step_s_, shortest_tick_s, longest_tick_s)), clock_});
+    else if (step_s_ >= shortest_tick_s && step_s_ <= longest_tick_s)
+      set("tick", {fmt::format("{:.6g} ms", 1e3 * step_s_), clock_});
   }
 
   /// What commands a valve; null if nothing does.

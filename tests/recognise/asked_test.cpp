@@ -321,7 +321,7 @@ TEST_F(Asked, ATitleThatNamesNoLoadMaySayAnother) {
 }
 
 TEST_F(Asked, UnitsThatAreNotTheLastWord) {
-  const auto row = [](int k) { return fmt::format("{},{:.3f},{:.3f}", k, 5 * drive(k), 10 * drive(k)); };
+  const auto row = [](int k) { return fmt::format("{},{:.3f},{:.3f}", .1 * k, 5 * drive(k), 10 * drive(k)); };
   const auto guess = [&](const char* head, const char* key) { return column(of(head, row), key); };
   EXPECT_TRUE(guess("Time in 10 ms,p_bar,x_mm\n", "time").factor->open());
   EXPECT_EQ(guess("Seconds of day,p_bar,x_mm\n", "time").unit.value, "s");

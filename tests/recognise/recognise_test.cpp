@@ -145,6 +145,26 @@ TEST_F(Recognise, WhatNothingTellsIsLeftOpen) {
   EXPECT_TRUE(found.runs[0].load->open());
 }
 
+TEST_F(Recognise, RowsThatNoRecorderTakesAskForTheUnitOfTime) {
+  const auto found = [&](const char* unit, double step) {
+    const auto row = [&](int k) { return fmt::format("{:.10g},{},{}", k * step, 10 * drive(k), drive(k)); };
+    return recognise({run("5kg.csv", fmt::format("Zeit [{}],Valve voltage,Weg [mm]\n", unit), row)}, false);
+  };
+  for (const auto& [unit, step, says] :
+       {std::tuple("s", 20.0, "rows are 20000 ms apart: is it s, or ms, with rows 20 ms apart?"),
+        std::tuple("s", 1.0, "or ms, with rows 1 ms apart?"),
+        std::tuple("ms", 0.02, "rows are 0.02 ms apart: is it ms, or s, with rows 20 ms apart?")}) {
+    const Recognised asked = found(unit, step);
+    const ColumnGuess& time = *asked.maps[0].find("time");
+    EXPECT_TRUE(time.unit.open()) << step;
+    EXPECT_TRUE(holds(time.unit.reason, says));
+    EXPECT_EQ(time.factor->value, "1") << "whatever the heading says";
+    EXPECT_EQ(setting(asked.rig, "tick"), nullptr) << "the base's";
+    EXPECT_TRUE(holds(asked.maps[0].find("command")->unit.reason, "write one, as V;"));
+  }
+  EXPECT_EQ(setting(found("ms", 20.0).rig, "tick")->told.value, "20 ms");
+}
+
 TEST_F(Recognise, OurOwnRowsEachTickNeedNothing) {
   const auto row = [](int k) {
     return fmt::format("{},{},{}", k * 0.012, k < 5 ? 0.0 : 16 * drive(k), k < 5 ? 0.0 : 0.2 * drive(k));
