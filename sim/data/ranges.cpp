@@ -221,10 +221,22 @@ class Ranges {
     const bool given = meant.as == domain::Role::input;
     const char* can = quantity.channel.signal->key == "muscle_pressure" ? "what a muscle can be given"
                                                                         : "what a valve can give";
-    meant.unit = std::string(meant.unit == "kPa" ? "Pa" : "kPa");
+    meant.unit = likely_unit_of_pressure(meant.unit);
     look(given ? lowest_given_bar : lowest_read_bar, highest_bar, given ? can : "what a gauge can show",
          fmt::format("is it in another unit (kPa, mbar, Pa, psi)? Then write so, as in columns: {{{}}}",
                      line_in_unit(quantity.key, meant)));
+  }
+
+  /// The largest in which its numbers are no more than the rig's supply; a guess where there is none.
+  std::string likely_unit_of_pressure(const std::string& said) const {
+    const std::vector<Unit> units = units_of_pressure();  // from the largest
+    const Unit* const own = find_unit(units, said);
+    const double most_Pa = largest_read(values()) * plant::Pa_per_bar;
+    for (const Unit& unit : units)
+      if (own != nullptr && unit.name != said &&
+          most_Pa / own->size * unit.size <= rig_.valve.supply_pressure_Pa)
+        return unit.name;
+    return said == "kPa" ? "Pa" : "kPa";
   }
 
   void look(double lowest, double highest, std::string_view meaning, const std::string& hint) {

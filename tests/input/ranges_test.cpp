@@ -57,5 +57,19 @@ TEST(Ranges, LengthsThatNoMuscleCanBeHeldAtAreToldOnce) {
   EXPECT_TRUE(told(0.1).empty());
 }
 
+TEST(Ranges, APressureSeemsToBeInTheUnitThatFitsTheSupply) {
+  domain::ColumnMap map;
+  const auto told = [&](const char* unit, double most_bar) {
+    map["muscle_pressure"] = {.column = "p", .unit = unit};
+    const std::vector<double> pressure_bar = even(0.1 * most_bar, most_bar);
+    const std::vector<ReadColumn> columns{{"muscle_pressure_bar", &pressure_bar}};
+    return check_ranges(columns, map, rig_of_250_mm()).front().message;
+  };
+  EXPECT_TRUE(holds(told("bar", 4800.0), "unit: mbar"));
+  EXPECT_TRUE(holds(told("bar", 480.0), "unit: kPa"));
+  EXPECT_TRUE(holds(told("bar", 4.8e5), "unit: Pa"));
+  EXPECT_TRUE(holds(told("kPa", 4800.0), "unit: Pa"));
+}
+
 }  // namespace
 }  // namespace mckibben::data
