@@ -279,7 +279,7 @@ std::string meant_quantity(std::string_view text, std::string_view si_unit, cons
                                 : unknown && si_unit == "Pa" && large        ? "mbar"
                                 : nothing_usual && si_unit == "m/s" && large ? "mm/s"
                                                                              : usual_unit(si_unit);
-  for (const std::string_view one : {unit, si_unit}) {
+  for (const std::string_view one : {unit, si_unit, si_unit == "kg" ? std::string_view("g") : si_unit}) {
     double value = *written;
     convert({&value, 1}, one, si_unit);
     if (value >= usual.lowest && value <= usual.highest &&

@@ -180,7 +180,9 @@ void ValueReader::quantity(std::string_view key, const Node& node, double& value
       value = read;
       return spread(key, said.spread, read, limits.unit);
     }
-    const std::string meant = usual.value == 0.0 ? "" : meant_quantity(said.value, limits.unit, usual);
+    // Where nothing is usual only a mass's number tells its unit: 10200 kg.
+    const std::string meant =
+        usual.value == 0.0 && limits.unit != "kg" ? "" : meant_quantity(said.value, limits.unit, usual);
     bad(node, fmt::format("{} = {} is out of range: {} to {} ({}){}", key, shortened(node.text),
                           show_limit(limits.lowest, limits.unit, said.value),
                           show_limit(limits.highest, limits.unit, said.value), limits.meaning,

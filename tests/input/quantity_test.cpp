@@ -140,6 +140,8 @@ TEST(Quantity, SayWhatIsWrong) {
   EXPECT_EQ(meant_quantity("8 Pa", "Pa", supply), "8 bar");
   EXPECT_EQ(meant_quantity("800000", "Pa", supply), "800000 Pa");
   EXPECT_EQ(meant_quantity("800 mbar", "Pa", supply), "") << "neither 800 bar nor 800 Pa";
+  const Usual no_load{.value = 0.0, .lowest = 0.0, .highest = 500.0};
+  EXPECT_EQ(meant_quantity("10200 kg", "kg", no_load), "10200 g");
   EXPECT_EQ(of_radius("0.09"), "0.09 has no unit; it is measured in m: for example 7.5 mm");
   EXPECT_EQ(of_radius("0.008 N"), "0.008 N: N is the wrong kind of unit; wanted is m: for example 7.5 mm");
   EXPECT_EQ(problem_of("1.3 s", "1"), "1.3 s must be a bare number, without a unit: for example 1.3");
