@@ -143,7 +143,8 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
       problems.add(
           table, *column, 0,
           fmt::format("{0}write factor: how many {1} are 1 {2}, also if it is 1, and zero: the {2} at {3}",
-                      what, taken, said, quantity.key == "contraction" ? "rest length" : "0 " + taken));
+                      what, taken, said, quantity.key == "contraction" ? "rest length" : "0 " + taken),
+          true);
     else {
       // Of what falls, -1 says no unit: then the heading's, and what one of ours is of it.
       const bool falls = place.factor == -1.0;
@@ -156,7 +157,8 @@ void check_said_units(const Table& table, const ColumnMap& map, const plant::Rig
                                line_of(quantity.key, right), in_heading ? "it" : "the table",
                                !in_heading ? ""
                                : falls     ? ", or " + line_of(quantity.key, wrong) + " if it is not"
-                                           : ", or factor: 1 if it is not"));
+                                           : ", or factor: 1 if it is not"),
+                   true);
     }
   }
 }
