@@ -239,7 +239,7 @@ Finding wrong_label(const domain::Dataset& data, const Alone& found) {
   return doubt(
       {run}, fmt::format("{0} ({1} kg) moves like {2:.3g} kg, compared with the other runs, which agree with "
                          "their labels. Is this label wrong? Then load: {2:.3g} kg, roughly, as the rig may "
-                         "lack an effect (`mckibben diagnose` weighs both). Or was its encoder set to zero "
+                         "lack an effect (`mckibben diagnose` weighs both). Or is its reading's zero "
                          "elsewhere?",
                          data.runs[run].id, domain::write_kg(label_kg), seems_kg / found.others.scale));
 }
@@ -282,7 +282,7 @@ std::optional<Finding> wrong_labels(const domain::Dataset& data, const std::vect
   found.message =
       fmt::format("at equal pressure a heavier load contracts less, but {}: {}", seems,
                   all_agree ? "these labels look exchanged; write " + written
-                            : "are the labels right, and were the encoders set to zero at the same place?");
+                            : "are the labels right, and is the zero of each reading at the same place?");
   return found;
 }
 
