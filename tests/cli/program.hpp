@@ -34,7 +34,7 @@ inline constexpr const char* quick_scenario =
     "schema: mckibben-scenario/1\n"
     "loads: [11.138 kg, 16.138 kg]\n"
     "duration: 1 s\n"
-    "target: {kind: sine, mean: 0.05, amplitude: 0.02, period: 1 s}\n"
+    "target: {kind: sine, mean: 0.09, amplitude: 0.02, period: 1 s}\n"
     "controllers:\n"
     "  - {kind: sine_current, low: 5 mA, high: 9 mA, period: 1 s}\n"
     "  - {kind: static_inverse, assumed_load: 14 kg}\n"
