@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,10 +34,6 @@ double largest(const Series& values) {
 }
 double lowest(const Series& values) {
   return *std::min_element(values.begin(), values.end());
-}
-
-double mean(const Series& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// A quantity of the map, and how it is judged.
@@ -228,8 +223,8 @@ class Columns {
     if (!judge(quantity, all) || !data_.rig.lifts_a_load()) return;
     const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::force);
     if (const Unit* unit = quantity.unit_said())
-      if (auto found = other_zero_of_load_cell(runs, key, quantity.place, unit->size,
-                                               sheet != nullptr ? sheet->accuracy : 0.0))
+      if (auto found =
+              load_cell_off(runs, key, quantity.place, unit->size, sheet != nullptr ? sheet->accuracy : 0.0))
         findings_.push_back(std::move(*found));
   }
 

@@ -358,30 +358,4 @@ std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, co
   return found;
 }
 
-std::optional<Finding> other_zero_of_load_cell(const std::vector<Compared>& runs, const std::string& key,
-                                               ColumnPlace place, double unit_N, double accuracy_N) {
-  std::vector<double> offs_N, hangs_N;
-  Finding found{.quantity = key, .message = {}, .severity = Severity::doubtful};
-  for (const Compared& run : runs) {
-    if (run.measured.empty()) continue;
-    found.runs.insert(found.runs.end(), run.runs.begin(), run.runs.end());
-    hangs_N.push_back(mean(run.model));
-    offs_N.push_back(mean(run.measured) - hangs_N.back());
-  }
-  if (offs_N.empty()) return std::nullopt;
-  const double off_N = median(offs_N), most_N = *std::ranges::max_element(hangs_N);
-  // Of one load alone it could as well be its label; of a wrong factor it grows with the load.
-  if (std::abs(off_N) <
-          std::max(of_gains.zero_of_load_cell * most_N, of_gains.zero_accuracies * accuracy_N) ||
-      !agree_on(off_N, offs_N) ||
-      most_N < (1.0 + 2.0 * of_gains.same_zero) * *std::ranges::min_element(hangs_N))
-    return std::nullopt;
-  place.zero = domain::significant(place.zero + off_N / unit_N / place.factor, digits - 1);
-  found.message = fmt::format(
-      "{} reads {:.3g} N {} than hangs there, whatever the load: is its zero what the load cell reads with "
-      "nothing on it? About columns: {{{}}}",
-      key, std::abs(off_N), off_N > 0.0 ? "more" : "less", line_of(key, place));
-  return found;
-}
-
 }  // namespace mckibben::data

@@ -71,10 +71,10 @@ std::optional<Finding> other_span(const std::vector<Compared>& runs, const std::
 /// to it. `accuracy_Pa`: rms.
 std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
                                            domain::ColumnPlace place, double accuracy_Pa);
-/// A load cell that reads the same too much or too little whatever hangs. `unit_N`: of its column; of each
-/// run alone.
-std::optional<Finding> other_zero_of_load_cell(const std::vector<Compared>& runs, const std::string& key,
-                                               domain::ColumnPlace place, double unit_N, double accuracy_N);
+/// A load cell that reads the same too much or too little whatever hangs, by the same factor, or both.
+/// `unit_N`: of its column; of each run alone.
+std::optional<Finding> load_cell_off(const std::vector<Compared>& runs, const std::string& key,
+                                     domain::ColumnPlace place, double unit_N, double accuracy_N);
 /// Whether a gauge may read so many times what the rig would do.
 bool is_gauge_slope(double slope);
 

@@ -15,6 +15,10 @@ inline double range(std::span<const double> values) {
   return *high - *low;
 }
 
+inline double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 /// The middle value; the larger of the middle two, if they are two.
 inline double upper_median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -36,9 +40,7 @@ struct Line {
   double slope = 0.0, correlation = 0.0, mean_difference = 0.0;
 
   Line(std::span<const double> values, std::span<const double> model) {
-    const auto rows = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / rows;
-    const double model_mean = std::accumulate(model.begin(), model.end(), 0.0) / rows;
+    const double mean = data::mean(values), model_mean = data::mean(model);
     double along = 0.0, squares = 0.0, model_squares = 0.0;
     for (std::size_t k = 0; k < values.size(); ++k) {
       along += (values[k] - mean) * (model[k] - model_mean);

@@ -52,7 +52,9 @@ struct ColumnThresholds {
   double atmosphere = 0.2;    ///< relative: an offset so near to it is it
   double zero_Pa = 0.2e5, zero_accuracies = 5.0;  ///< no gauge's own zero is off by more, nor by so many rms
   double same_zero = 0.25;                        ///< of that offset: all runs agree on it
-  double zero_of_load_cell = 0.02;  ///< of the largest load: no load cell's own zero is off by more
+  double zero_of_load_cell = 0.02;  ///< of the largest load: no load cell's own zero is off by more,
+  double gain_of_load_cell = 0.05;  ///< nor by so much of each: a guide's friction is a few hundredths
+  double other_load = 1.5;          ///< times the lightest: a load that tells a zero from a factor
 };
 
 /// Columns that are tried in each other's place.
