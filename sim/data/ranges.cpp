@@ -87,6 +87,7 @@ class Ranges {
           found->is_old_current && commands_ ? domain::quantity_of(domain::command_key) : *found;
       const std::string& key = quantity.key;
       const ColumnPlace& place = map_[quantity];
+      given_ = quantity.is_command() || place.as == domain::Role::input;
       if (quantity.is_command())
         command(quantity, place);
       else if (key == "contraction")
@@ -239,12 +240,28 @@ class Ranges {
     return said == "kPa" ? "Pa" : "kPa";
   }
 
+  /// Rows of a reading that is out of its range for a few of them, now and then; none where it is so for
+  /// long or often, as in a wrong unit, or drives the simulation.
+  std::vector<std::size_t> dropped_out(const auto& outside) const {
+    std::vector<std::size_t> rows;
+    const bool may_miss = columns_[at_].may_miss && !given_;
+    std::size_t together = 0;
+    for (std::size_t row = 0; row < values().size() && may_miss; ++row) {
+      together = outside(values()[row]) ? together + 1 : 0;
+      if (together > thresholds.reading.spike_ticks) return {};
+      if (together > 0) rows.push_back(row);
+    }
+    const double most = thresholds.reading.not_read_share * static_cast<double>(values().size());
+    return static_cast<double>(rows.size()) <= most ? rows : std::vector<std::size_t>{};
+  }
+
   void look(double lowest, double highest, std::string_view meaning, const std::string& hint) {
     const Series& values = *columns_[at_].values;
     const std::string_view name = columns_[at_].name;
     const auto outside = [&](double value) { return value < lowest || value > highest; };
     const auto count = std::ranges::count_if(values, outside);
     const auto first = std::ranges::find_if(values, outside);
+    const std::vector<std::size_t> not_read = dropped_out(outside);
     const bool marks =
         2 * count < static_cast<std::ptrdiff_t>(values.size()) &&
         std::ranges::all_of(values, [&](double value) { return !outside(value) || value == *first; });
@@ -252,6 +269,10 @@ class Ranges {
       if (!outside(values[row])) continue;
       std::string message = fmt::format("{} = {} is out of range: {:.6g} to {:.6g} ({})", name,
                                         write_number(values[row]), lowest, highest, meaning);
+      if (!not_read.empty()) {
+        found_.push_back({at_, row, std::move(message), false, not_read});
+        return;
+      }
       if (count > few_numbers) {
         double least = infinite, most = -infinite;
         for (const double value : values) {
@@ -276,6 +297,7 @@ class Ranges {
   ColumnMap map_;  ///< with our own names where it says none
   const plant::Rig& rig_;
   std::size_t at_ = 0;
+  bool given_ = false;  ///< its column drives the simulation
   std::vector<WrongNumber> found_;
 };
 

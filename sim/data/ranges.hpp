@@ -1,5 +1,6 @@
 // A run's columns against what rig, tick and instruments can do, before anything is simulated: a few numbers
-// out of range one by one, many of them as one problem, with the line of `columns` that mends it.
+// out of range one by one, many of them as one problem, with the line of `columns` that mends it. Readings
+// that drop out now and then are none.
 #pragma once
 
 #include <cstddef>
@@ -28,12 +29,14 @@ bool divided_by_length(const domain::ColumnPlace& contraction);
 struct ReadColumn {
   std::string_view name;  ///< current_mA
   const std::vector<double>* values;
+  bool may_miss = false;  ///< what was not read may be left out
 };
 
 struct WrongNumber {
   std::size_t column, row;
   std::string message;
-  bool of_column = false;  ///< many numbers, of which this is the first
+  bool of_column = false;               ///< many numbers, of which this is the first
+  std::vector<std::size_t> not_read{};  ///< these rows, which are so few: no error
 };
 
 /// `map` says where the columns came from.

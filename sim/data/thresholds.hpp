@@ -94,6 +94,7 @@ struct ReadingThresholds {
   double gauge_step_Pa = 2e3;        ///< what gauges cannot resolve: for them a count
   double sharp_reach_s = 0.3;        ///< a hidden effect moves the model's sharpest bend by no more
   std::size_t spike_ticks = 5;       ///< an outlier's width at most
+  double not_read_share = 0.02;      ///< of a run, and so narrow: what cannot be was not read
   double spike_counts = 5.0;         ///< it jumps by more than this beside what the model's bends explain
   double spike_balance = 0.5;        ///< of the smaller jump: what the way back may differ by
   double end_counts = 2.0;           ///< a tick: at the ends of a run a faster load is no proof

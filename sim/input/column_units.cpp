@@ -1,9 +1,12 @@
 // Units of a column map; see the header.
+#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include <plant/instruments.hpp>
 #include <sim/data/ranges.hpp>
+#include <sim/domain/number.hpp>
 #include <sim/input/column_units.hpp>
 #include <sim/input/dates.hpp>
 #include <sim/input/quantity.hpp>
@@ -205,11 +208,44 @@ void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig) 
   }
 }
 
-void check_numbers(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {
+namespace {
+
+/// A number of a converted column as its file has it.
+double as_in_file(double value, const Table::Column& column, const ColumnMap& map, const plant::Rig& rig) {
+  constexpr int digits = 9;
+  Table line;
+  line.columns.push_back({.name = column.name, .in_file = column.in_file, .values = {0.0, 1.0}});
+  convert_columns(line, map, rig);
+  const double zero = line.columns.front().values[0], one = line.columns.front().values[1];
+  return domain::significant((value - zero) / (one - zero), digits);
+}
+
+}  // namespace
+
+void check_numbers(Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {
   std::vector<data::ReadColumn> columns;
-  for (const Table::Column& column : table.columns) columns.push_back({column.name, &column.values});
-  for (const data::WrongNumber& wrong : data::check_ranges(columns, map, rig))
-    problems.add(table, table.columns[wrong.column], wrong.row, wrong.message, wrong.of_column);
+  for (const Table::Column& column : table.columns)
+    columns.push_back({column.name, &column.values, column.may_miss});
+  for (const data::WrongNumber& wrong : data::check_ranges(columns, map, rig)) {
+    Table::Column& column = table.columns[wrong.column];
+    const double value = column.values[wrong.row];
+    const std::vector<std::size_t>& rows = wrong.not_read;
+    const auto same = [&](std::size_t row) { return column.values[row] == value; };
+    std::string message = wrong.message;
+    if (const std::size_t count = rows.size(); count > 0)
+      message +=
+          fmt::format("{}; taken as not read",
+                      count > 1 ? fmt::format(", as {} of {} rows are", count, column.values.size()) : "");
+    if (column.may_miss && !wrong.of_column && std::ranges::all_of(rows, same))
+      message +=
+          fmt::format("; if {0} stands for what was not read, write missing: {0} in the place of its column",
+                      domain::write_number(as_in_file(value, column, map, rig)));
+    if (rows.empty())
+      problems.add(table, column, wrong.row, message, wrong.of_column);
+    else
+      problems.note(table, column, wrong.row, message);
+    for (const std::size_t row : rows) column.values[row] = std::nan("");
+  }
 }
 
 void check_clock(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems) {

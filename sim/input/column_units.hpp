@@ -43,8 +43,9 @@ double ratio_per_unit(const ColumnPlace& contraction, const plant::Rig& rig);
 /// muscle's rest length.
 void convert_columns(Table& table, const ColumnMap& map, const plant::Rig& rig);
 
-/// What is wrong with the numbers of a table that was brought to our units, at its place.
-void check_numbers(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems);
+/// What is wrong with the numbers of a table that was brought to our units, at its place. A few readings that
+/// cannot be are taken as not read, where readings may miss.
+void check_numbers(Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems);
 /// The same of a clock that is to tick as the rig does.
 void check_clock(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems);
 

@@ -82,7 +82,7 @@ namespace {
 /// The columns of a table as a measurement, checked one by one.
 class Assembling {
  public:
-  Assembling(const Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems)
+  Assembling(Table& table, const ColumnMap& map, const plant::Rig& rig, TableProblems& problems)
       : table_(table), map_(map), rig_(rig), problems_(problems) {}
 
   Measurement operator()(const domain::Recorded& recorded) {
@@ -186,7 +186,7 @@ class Assembling {
       for (double& value : measured_.columns.back().values) value *= size;
   }
 
-  const Table& table_;
+  Table& table_;
   const ColumnMap& map_;
   const plant::Rig& rig_;
   TableProblems& problems_;

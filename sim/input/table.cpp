@@ -57,14 +57,27 @@ void TableProblems::add(Place place, std::string message, bool of_column) {
   last_ = place;
 }
 
+namespace {
+
+/// A number without a place is told by the name and number that it has in the file.
+std::string of_number(const Table& table, const Table::Column& column, std::size_t row,
+                      const std::string& message) {
+  if (table.lines.empty()) return fmt::format("{}({}): {}", column.in_file, row + 1, message);
+  return column.in_file == column.name ? message : fmt::format("{}: {}", column.in_file, message);
+}
+
+}  // namespace
+
 void TableProblems::add(const Table& table, const Table::Column& column, std::size_t row,
                         const std::string& message, bool of_column) {
-  if (table.lines.empty())
-    add(nowhere, fmt::format("{}({}): {}", column.in_file, row + 1, message), of_column);
-  else if (column.in_file == column.name)
-    add(table.place(source_, column, row), message, of_column);
-  else
-    add(table.place(source_, column, row), fmt::format("{}: {}", column.in_file, message), of_column);
+  add(table.lines.empty() ? nowhere : table.place(source_, column, row),
+      of_number(table, column, row, message), of_column);
+}
+
+void TableProblems::note(const Table& table, const Table::Column& column, std::size_t row,
+                         const std::string& message) {
+  note(table.lines.empty() ? nowhere : table.place(source_, column, row),
+       of_number(table, column, row, message));
 }
 
 bool check_text(const Source& source, TableProblems& problems) {

@@ -80,6 +80,7 @@ class TableProblems {
            bool of_column = false);
   /// How something was read that could be read in another way.
   void note(Place place, std::string message) { problems_.warning(source_, place, std::move(message)); }
+  void note(const Table& table, const Table::Column& column, std::size_t row, const std::string& message);
   std::size_t count() const { return count_; }
   std::size_t line_in_file(std::size_t line) const { return source_.line_in_file(line); }
 

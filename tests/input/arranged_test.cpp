@@ -303,6 +303,27 @@ TEST_F(Arranged, ANumberMayStandForNone) {
                     "missing = none of x is not a number"));
 }
 
+TEST_F(Arranged, AReadingThatDropsOutNowAndThenIsNone) {
+  const auto table = [](int every, const char* pressure = "1") {
+    std::string text = "t,p,x\n";
+    for (int k = 0; k < 200; ++k)
+      text += fmt::format("{},{},{}\n", 10 * k, k == 33 ? pressure : "1",
+                          k % every == 33 ? "999.999" : std::to_string(k % 9));
+    return text;
+  };
+  const Dataset data = read(table(100), in_ms, x_mm);
+  const auto& values = data.runs[0].measured->read("contraction");
+  EXPECT_TRUE(std::isnan(values[33]) && std::isnan(values[133]) && !std::isnan(values[34]));
+  EXPECT_TRUE(holds(fmt::format("{}", fmt::join(data.remarks, "\n")),
+                    "r.csv:35:", "x: contraction_ratio = ", "is out of range",
+                    "as 2 of 200 rows are; taken as not read", "write missing: 999.999 in"));
+  EXPECT_TRUE(holds(refused(table(40), in_ms), "out of range", "write missing:")) << "too often";
+  EXPECT_TRUE(holds(refused(table(100, "1e4"), in_ms),
+                    "r.csv:35:", "muscle_pressure_bar = 10000 is out of range",
+                    "write missing: 10000 in the place of its column"))
+      << "it drives the simulation";
+}
+
 TEST_F(Arranged, TheFirstAndTheLastStampMayHaveAPartOfTheirRows) {
   std::string table = "t,p,x\n";
   for (int k = 7; k < 54; ++k) table += std::to_string(k / 10) + ",1,0\n";
