@@ -66,6 +66,12 @@ class LvmReader {
 
   std::vector<Cell> cells() const { return split_cells(source_.line(line_), separator_); }
   bool at_end() const { return line_ > source_.lines(); }
+  /// Whether nothing stands below this line.
+  bool is_last() const {
+    for (std::size_t line = line_ + 1; line <= source_.lines(); ++line)
+      if (!trimmed(source_.line(line)).empty()) return false;
+    return true;
+  }
   bool begins_a_file() const { return trimmed(source_.line(line_)).starts_with(file_mark); }
   bool begins_a_header() const {
     return begins_a_file() || source_.line(line_).starts_with(std::string(segment_mark) + separator_);
@@ -262,6 +268,11 @@ class LvmReader {
 
   void read_row(std::size_t row_of_segment) {
     const std::vector<Cell> row = cells();
+    const auto lacks = [&](const Table::Column& column) { return column.index >= row.size(); };
+    if (!table_.lines.empty() && std::ranges::any_of(table_.columns, lacks) && is_last()) {
+      problems_.note({line_, 1}, "this last row is cut off: not read");
+      return;
+    }
     if (row.empty() || row.size() > labels_.size())
       problems_.add({line_, 1}, row.empty() ? std::string("a quote is opened but not closed in this row")
                                             : fmt::format("this row has {} cells; there are {} columns",

@@ -149,6 +149,15 @@ TEST(Tables, MutilatedOnesAreReadWholeOrRefused) {
   }
 }
 
+TEST(Tables, AnLvmWhoseLastRowIsCutOffIsReadWithoutIt) {
+  const std::string good = good_lvm;
+  EXPECT_EQ(read_as_run(good.substr(0, good.rfind('\t')) + "\n\n", true),
+            (std::pair<std::size_t, bool>{0, true}));
+  std::string inside = good;
+  inside.erase(inside.find("\t0,1\n"), 4);
+  EXPECT_GT(read_as_run(inside, true).first, 0U) << "not the last";
+}
+
 class DatasetFolder : public testing::Test {
  protected:
   void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
