@@ -188,7 +188,7 @@ class Columns {
   /// Where nothing but a scale or a zero differs.
   void only_gain_or_zero(const Compared& rows) {
     if (rows.measured.size() < 2 || range(rows.model) <= moving()) return;
-    if (auto found = halved_or_doubled(rows, map_["contraction"]))
+    if (auto found = halved_or_doubled(rows, "contraction", map_["contraction"]))
       findings_.push_back(std::move(*found));
     else if (auto other = other_zero(rows, map_["contraction"], data_.runs.front().ratio_per_unit))
       findings_.push_back(std::move(*other));
@@ -200,11 +200,14 @@ class Columns {
   }
 
   void angle(const Compared& rows) {
-    judge({.key = "angle",
-           .place = map_["angle"],
-           .units = {{"rad", 1.0, of_columns.same_turn}, {"deg", plant::degree_rad, of_columns.same_turn}},
-           .shown = " rad"},
-          rows);
+    const Quantity quantity{
+        .key = "angle",
+        .place = map_["angle"],
+        .units = {{"rad", 1.0, of_columns.same_turn}, {"deg", plant::degree_rad, of_columns.same_turn}},
+        .shown = " rad"};
+    if (judge(quantity, rows) && rows.measured.size() > 1)
+      if (auto found = halved_or_doubled(rows, "angle", quantity.place))
+        findings_.push_back(std::move(*found));
   }
 
   // What hangs on a cord says how large its force is, whatever moves it.

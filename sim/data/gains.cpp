@@ -36,24 +36,27 @@ constexpr int digits = 4;  // of numbers in a line to write
 
 }  // namespace
 
-std::optional<Finding> halved_or_doubled(const Compared& contraction, ColumnPlace place) {
-  const Line line(contraction.measured, contraction.model);
+std::optional<Finding> halved_or_doubled(const Compared& reading, const std::string& key, ColumnPlace place) {
+  const Line line(reading.measured, reading.model);
+  const bool turns = key == "angle";  // of other muscles, too, by a little more or less: then only scaled
+  const double near = turns ? of_gains.same : of_gains.halved;
   for (const double factor : {0.5, 2.0}) {
-    if (std::abs(std::log(line.slope / factor)) > std::log(of_gains.halved) ||
-        line.correlation < of_gains.alike)
+    if (std::abs(std::log(line.slope / factor)) > std::log(near) || line.correlation < of_gains.alike)
       continue;
-    const auto model = [&](std::size_t k) { return contraction.model[k]; };
-    if (!(share_left(contraction, factor, 0.0, model) <= of_gains.halved_share)) continue;
-    const char* const rig = divided_by_length(place)
+    const auto model = [&](std::size_t k) { return reading.model[k]; };
+    if (!(share_left(reading, turns ? line.slope : factor, 0.0, model) <=
+          (turns ? of_gains.scaled_share : of_gains.halved_share)))
+      continue;
+    const char* const rig = key == "contraction" && divided_by_length(place)
                                 ? "pulses_per_turn of its encoder or rest_length of the rig"
                                 : "pulses_per_turn of the rig's encoder";
     place.factor /= factor;
-    return Finding{.quantity = "contraction",
-                   .runs = contraction.runs,
+    return Finding{.quantity = key,
+                   .runs = reading.runs,
                    .message = fmt::format(
-                       "contraction is {:.2f} times what pressure and load say, everywhere: are counts "
+                       "{} is {:.2f} times what pressure and load say, everywhere: are counts "
                        "per turn {}, as by a decoder that sees other edges? Then columns: {{{}}}, or {}",
-                       line.slope, factor < 1.0 ? "halved" : "doubled", line_of("contraction", place), rig),
+                       key, line.slope, factor < 1.0 ? "halved" : "doubled", line_of(key, place), rig),
                    .severity = Severity::doubtful};
   }
   return std::nullopt;

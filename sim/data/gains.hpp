@@ -37,8 +37,9 @@ struct Compared {
   }
 };
 
-/// A decoder that counts every second edge, or every edge twice.
-std::optional<Finding> halved_or_doubled(const Compared& contraction, domain::ColumnPlace place);
+/// A decoder that counts every second edge, or every edge twice: of a contraction or an angle.
+std::optional<Finding> halved_or_doubled(const Compared& reading, const std::string& key,
+                                         domain::ColumnPlace place);
 
 /// A contraction that is too large or too small by the same everywhere. `ratio_per_unit`: of its column.
 std::optional<Finding> other_zero(const Compared& contraction, domain::ColumnPlace place,

@@ -77,6 +77,19 @@ TEST_F(PairDataset, ReplayedOnItsTrueRigItIsRightToACount) {
   }
 }
 
+TEST_F(PairDataset, HalvedCountsOfItsAngleAreTold) {
+  ASSERT_EQ(run("dataset pair.yaml").status, 0);
+  EXPECT_TRUE(lacks(run("check out/pair").err, "halved"));
+  std::string columns = read_text(scratch / "out/pair/dataset.yaml");
+  const std::size_t factor = columns.find("factor: ");
+  columns.replace(factor, columns.find('\n', factor) - factor, "factor: 114.59");  // of 229.18 counts per rad
+  write_text(scratch / "out/pair/dataset.yaml", columns);
+  const auto said = run("check out/pair");
+  EXPECT_TRUE(holds(said.err, "angle is 0.", "are counts per turn halved",
+                    "columns: {angle: {column: angle_rad, ", "factor: 229.18}"))
+      << columns;
+}
+
 TEST_F(PairDataset, AnInterruptedOneGoesOnAndItsFilesAreTheSame) {
   ASSERT_EQ(run("dataset pair.yaml --out whole --format mat --threads 2").status, 0);
   begin(scratch / "parts", input::read_campaign(scratch / "pair.yaml"), 3, {"mat"});
