@@ -81,7 +81,7 @@ std::optional<Finding> load_cell_off(const std::vector<Compared>& runs, const st
         "{{{}}}; or {} {:.0f} % {} than written{}",
         key, cell.factor, several ? ", under every load" : "", meant,
         several ? "all loads are" : "the load is", std::abs(more), more > 0.0 ? "more" : "less",
-        several ? "" : ", or its zero is another: one load does not tell them apart");
+        several ? "" : ", or its zero is another: one load does not separate them");
   else if (by_zero)
     found.message = fmt::format(
         "{} reads {:.3g} N {} than hangs there, whatever the load: is its zero what the load cell reads with "

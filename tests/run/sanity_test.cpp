@@ -180,7 +180,7 @@ TEST(Sanity, AZeroOrFactorOfALoadCellThatWasForgottenIsAskedFor) {
   EXPECT_TRUE(holds(told(0.5, 0.0), "factor: 5", " % less than written"));
   EXPECT_TRUE(holds(told(1.3, -20.0), "times what hangs there and ", " N less, under every load: "));
   EXPECT_TRUE(holds(told(2.0, 0.0, 1), "times what hangs there: ", "or the load is ",
-                    "one load does not tell them apart"));
+                    "one load does not separate them"));
 }
 
 TEST(Sanity, ARunThatBeginsOnItsWayIsToldWithItsSpeed) {
