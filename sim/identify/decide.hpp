@@ -16,7 +16,7 @@ using diagnose::Verdict;
 /// A model as the decision sees it.
 struct Scored {
   std::vector<std::string> names{};   ///< that are at work
-  std::vector<std::string> faults{};  ///< those of them that are the bench's
+  std::vector<std::string> faults{};  ///< those of them that the bench has in single runs
   bool described = false;             ///< no parameter is free
   bool general = false;               ///< it has general terms
   double score = 0.0;                 ///< log evidence and log prior of the set [nats]

@@ -350,18 +350,16 @@ void Dictionary::put_terms(const Point& point, plant::Rig& rig) const {
   }
 }
 
-std::vector<std::string> Dictionary::faults(const Point& point) const {
+std::vector<std::string> Dictionary::faults_of_runs(const Point& point) const {
   std::set<std::string> set;
-  for (const Added& added : point.effects)
-    if (!entries[added.entry].effect) set.insert(entries[added.entry].name);
   for (const int which : point.differ)
     set.insert(std::string(differing.at(static_cast<std::size_t>(which)).name));
   return {set.begin(), set.end()};
 }
 
 std::vector<std::string> Dictionary::names(const Point& point) const {
-  const std::vector<std::string> bench = faults(point);
-  std::set<std::string> set(bench.begin(), bench.end());
+  const std::vector<std::string> of_runs = faults_of_runs(point);
+  std::set<std::string> set(of_runs.begin(), of_runs.end());
   for (const Added& added : point.effects) set.insert(entries[added.entry].name);
   constexpr std::array<std::string_view, 4> families{"", "smooth", "waves", "rubs"};
   if (point.terms != Terms::none) {

@@ -166,8 +166,8 @@ class Dictionary {
   Setting setting(const Point& point) const;
   /// The names of what is at work, in order.
   std::vector<std::string> names(const Point& point) const;
-  /// Those of them that the bench has wrong.
-  std::vector<std::string> faults(const Point& point) const;
+  /// Those of them that the bench has wrong in single runs.
+  std::vector<std::string> faults_of_runs(const Point& point) const;
   std::size_t count_of_terms(Terms terms) const;
   std::size_t laws_of(const std::string& name) const;
 

@@ -314,7 +314,7 @@ Identified Search::found() && {
     const double misses = missed(m);
     if ((is_general(m) && misses > most_of_terms) || misses > most_of_all) continue;
     result.table.push_back({.names = key.second,
-                            .faults = dictionary_.faults(m.point),
+                            .faults = dictionary_.faults_of_runs(m.point),
                             .described = key.first,
                             .general = is_general(m),
                             .score = m.score,
