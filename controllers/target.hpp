@@ -50,7 +50,7 @@ struct Stiffness {
 
 /// Catches "30" written for "30 mm".
 void check_height(auto& report, std::string_view key, const Height& height) {
-  if (!height.in_metres && (std::abs(height.value) >= 1.0))
+  if (!height.in_metres && std::abs(height.value) >= 1.0)
     report(key, "a contraction ratio lies between -1 and 1; a length needs its unit");
 }
 /// Their units and ranges are checked as they are read.

@@ -90,8 +90,7 @@ std::optional<Finding> load_cell_off(const std::vector<Compared>& runs, const st
   else
     found.message = fmt::format(
         "{} reads {:.3g} times what hangs there and {:.3g} N {}, under every load: are factor and zero of "
-        "the "
-        "load cell others? About columns: {{{}}}",
+        "the load cell others? About columns: {{{}}}",
         key, cell.factor, std::abs(cell.zero_N), cell.zero_N > 0.0 ? "more" : "less", meant);
   return found;
 }

@@ -260,6 +260,7 @@ class Ranges {
     const std::string_view name = columns_[at_].name;
     const auto outside = [&](double value) { return value < lowest || value > highest; };
     const auto count = std::ranges::count_if(values, outside);
+    if (count == 0) return;
     const auto first = std::ranges::find_if(values, outside);
     const std::vector<std::size_t> not_read = dropped_out(outside);
     const bool marks =

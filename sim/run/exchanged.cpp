@@ -13,6 +13,7 @@
 #include <sim/data/judged.hpp>
 #include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
+#include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/run/exchanged.hpp>
 #include <sim/run/look.hpp>
@@ -65,9 +66,7 @@ double left_of(domain::Dataset data) {
   for (const auto& [key, rows] : readings) {
     if (rows.measured.empty()) continue;
     const bool of_cord = key == "force" && data.rig.lifts_a_load();
-    const double about = of_cord ? 0.0
-                                 : std::accumulate(rows.measured.begin(), rows.measured.end(), 0.0) /
-                                       static_cast<double>(rows.measured.size());
+    const double about = of_cord ? 0.0 : data::mean(rows.measured);
     double left = 0.0, all = 0.0;
     for (std::size_t k = 0; k < rows.measured.size(); ++k) {
       left += std::pow(rows.measured[k] - rows.model[k], 2);

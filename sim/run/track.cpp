@@ -1,10 +1,10 @@
 // See the header.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 #include <plant/instruments.hpp>
+#include <sim/data/series.hpp>
 #include <sim/run/track.hpp>
 
 namespace mckibben::run {
@@ -12,10 +12,6 @@ namespace {
 
 std::size_t ticks_of(const domain::Scenario& scenario) {
   return static_cast<std::size_t>(std::llround(scenario.duration_s / scenario.rig.tick_s));
-}
-
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// From which tick errors count: what the scenario skips, or where some value first differs from its first.
@@ -147,11 +143,11 @@ JointFigures joint_figures(const plant::Rig& rig, const Recording& recording, co
     if (is_at_end(row.current_mA, rig) || is_at_end(row.opposite.current_mA, opposite)) ++at_end;
   }
   found.at_limit = static_cast<double>(at_end) / static_cast<double>(counted.size());
-  found.stiffness_had = mean_of(stiffness);
+  found.stiffness_had = data::mean(stiffness);
   if (wanted == nullptr || wanted->stiffness_N_m_per_rad.empty()) return found;
   const auto& asked = wanted->stiffness_N_m_per_rad;
   const std::size_t first = rows.size() - counted.size();
-  found.stiffness_asked = mean_of({asked.begin() + static_cast<std::ptrdiff_t>(first), asked.end()});
+  found.stiffness_asked = data::mean({asked.begin() + static_cast<std::ptrdiff_t>(first), asked.end()});
   double squares = 0.0;
   for (std::size_t k = 0; k < stiffness.size(); ++k) squares += std::pow(stiffness[k] - asked[first + k], 2);
   found.stiffness_rmse = std::sqrt(squares / static_cast<double>(stiffness.size()));
