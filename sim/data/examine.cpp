@@ -228,35 +228,33 @@ class Readings {
                      ended == 1 ? "" : "s"));
   }
 
-  // What ends at the same value again and again is told once.
+  // What ends at the same value again and again is told once, and so is what is held again and again. A held
+  // load is no reason to leave its run out: it may be the friction that the model lacks.
   void stand_still(std::size_t i, const std::vector<Still>& stills) {
     const auto value = [&](const Still& still) { return data_.runs[i].judged().values[still.begin]; };
     for (auto still = stills.begin(); still != stills.end(); ++still) {
-      if (still->why == Still::Why::stuck) {
-        stuck(i, *still);
-        continue;
-      }
       mask(i, *still);
+      const bool held = still->why == Still::Why::stuck;
       const auto same = [&](const Still& one) {
-        return one.why == still->why && value(one) == value(*still);
+        return one.why == still->why && (held || value(one) == value(*still));
       };
       if (std::find_if(stills.begin(), still, same) != still) continue;
       const auto times = std::count_if(still, stills.end(), same);
+      const std::string when =
+          fmt::format("{} from {:.3f} s to {:.3f} s", times > 1 ? fmt::format(" {} times, first", times) : "",
+                      time_s(still->begin - 1), time_s(still->end - 1));
+      if (held) {
+        find(i, Severity::masked, "stuck",
+             fmt::format("the {0} stands still{1} though the {2} should move it: {3}something held the {0}",
+                         moving(), when, data_.pressure_is_given() ? "pressure" : command_,
+                         data_.pressure_is_given() ? "" : "the valve was stuck, or "));
+        continue;
+      }
       const std::string why = still->why == Still::Why::frozen ? "frozen" : "saturated";
       find(i, Severity::masked, why,
-           fmt::format("{} is {} at {:.4g}{} from {:.3f} s to {:.3f} s though the {} should move", reading(),
-                       why, value(*still), times > 1 ? fmt::format(" {} times, first", times) : "",
-                       time_s(still->begin - 1), time_s(still->end - 1), moving()));
+           fmt::format("{} is {} at {:.4g}{} though the {} should move", reading(), why, value(*still), when,
+                       moving()));
     }
-  }
-
-  void stuck(std::size_t i, const Still& still) {
-    if (result_.left_out[i]) return;
-    leave_out(i, fmt::format("the {0} stands still from {1:.3f} s to {2:.3f} s though the {3} should "
-                             "move it: {4}something held the {0}",
-                             moving(), time_s(still.begin - 1), time_s(still.end - 1),
-                             data_.pressure_is_given() ? "pressure" : command_,
-                             data_.pressure_is_given() ? "" : "the valve was stuck, or "));
   }
 
   static bool same_inputs(const domain::Measurement& one, const domain::Measurement& other) {

@@ -34,7 +34,7 @@ std::string listed(const std::vector<std::string>& names) {
 std::string faults_in_words(const Diagnosis& d) {
   std::string text;
   for (const FaultyRun& faulty : d.faults) {
-    text += fmt::format("{}run {} {}", text.empty() ? "" : "; ", faulty.run, faulty.words);
+    text += fmt::format("{}run {}: {}", text.empty() ? "" : "; ", faulty.run, faulty.words);
   }
   if (text.empty()) return text;
   return capitalised(std::move(text)) + ". ";

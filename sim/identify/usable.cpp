@@ -32,7 +32,7 @@ void report(const domain::Dataset& data, const data::Finding& finding, Usable& r
     result.faulty.push_back({.run = data.runs[run].id,
                              .kind = finding.kind,
                              .action = left_out ? "left out" : "masked",
-                             .words = left_out ? "was left out: " + finding.message
+                             .words = left_out ? "left out, " + finding.message
                                                : finding.message + std::string(consequence)});
 }
 

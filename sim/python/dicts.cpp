@@ -82,19 +82,22 @@ class Writer {
     first = false;
   }
 
-  /// Of a target: an array of two columns, or pairs, are times [s] and values.
+  /// Of a target: an array of two columns, or pairs, are times [s] and values, of an angle in rad.
   void points(const py::handle& given, const std::string& path) {
     const py::object items = plain(given);
     if (!is_list(items)) return value(items, path);
-    list(items, path, [this](const py::handle& item, const std::string& below) {
+    const std::string to_unit = path.ends_with("angle.points") ? " rad" : "";
+    const auto with_unit = [](const py::object& number, const std::string& unit) -> py::object {
+      const bool bare = py::isinstance<py::int_>(number) || py::isinstance<py::float_>(number);
+      return bare && !unit.empty() ? py::str("{}{}").format(number, unit) : number;
+    };
+    list(items, path, [&](const py::handle& item, const std::string& below) {
       const py::object point = plain(item);
       if (!is_list(point) || py::len(point) != 2) return value(point, below);
-      const py::object at = plain(point[py::int_(0)]);
-      const bool bare = py::isinstance<py::int_>(at) || py::isinstance<py::float_>(at);
       into_.text += "{\"at\": ";
-      value(bare ? py::str("{} s").format(at) : at, below);
+      value(with_unit(plain(point[py::int_(0)]), " s"), below);
       into_.text += ", \"to\": ";
-      value(point[py::int_(1)], below);
+      value(with_unit(plain(point[py::int_(1)]), to_unit), below);
       into_.text += '}';
     });
   }

@@ -14,11 +14,11 @@ std::size_t ticks_of(const domain::Scenario& scenario) {
   return static_cast<std::size_t>(std::llround(scenario.duration_s / scenario.rig.tick_s));
 }
 
-/// From which tick errors count: what the scenario skips, or where some value first differs from its first.
+/// From which tick errors count: the first that is not skipped, or that in which some value begins to move.
 std::size_t first_tick(const domain::Scenario& scenario, const Wanted& wanted) {
   const std::size_t ticks = wanted.ratios.size();
   if (scenario.skip_s)
-    return std::min(static_cast<std::size_t>(std::llround(*scenario.skip_s / scenario.rig.tick_s)),
+    return std::min(static_cast<std::size_t>(std::ceil(*scenario.skip_s / scenario.rig.tick_s - 1e-9)),
                     ticks - 1);
   std::size_t first = ticks;
   for (const auto* values : {&wanted.ratios, &wanted.stiffness_N_m_per_rad}) {

@@ -1,5 +1,6 @@
 // What counts of measured data, and what is refused with the line that mends it.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include <plant/constants.hpp>
 #include <sim/data/finding.hpp>
 #include <sim/data/judged.hpp>
+#include <sim/diagnose/predict.hpp>
 #include <sim/identify/usable.hpp>
 #include <sim/run/exchanged.hpp>
 
@@ -48,6 +50,25 @@ TEST(Usable, RowsAtTheEndOfTheRangeDoNotCount) {
   EXPECT_GE(std::ranges::count(found.masked[0], true), ended);
   ASSERT_FALSE(found.warnings.empty());
   EXPECT_TRUE(holds(found.warnings[0], "at the end of the sensor's range"));
+}
+
+// A load that is held long is no reason to leave its run out: friction that the model lacks holds one too.
+TEST(Usable, RowsInWhichALoadIsHeldDoNotCount) {
+  auto currents = diagnose::three_kinds();
+  currents.resize(1);
+  currents[0].duration_s = 8.0;
+  domain::Dataset data = diagnose::planted({}, {11.138, 16.138, 18.87}, currents, 5);
+  domain::Run moved = data.runs[1];
+  const auto stuck = moved.current_mA.begin() + 260;
+  std::fill(stuck, stuck + 140, *stuck);
+  const diagnose::Loaded hanging{data.rig, moved.load_kg};
+  data.runs[1].judged().values = diagnose::predict(moved, {&hanging, 1}).front().judged();
+  const double count = run::contraction_per_count(data.rig);
+  for (double& ratio : data.runs[1].judged().values) ratio = count * std::floor(ratio / count);
+  const Usable found = usable(data, 2);
+  EXPECT_EQ(found.runs.size(), 3U);
+  EXPECT_TRUE(found.masked[1][320]);
+  EXPECT_FALSE(found.masked[1][200] || found.masked[1][412]);
 }
 
 /// The words that the data are refused with; empty if they are not.

@@ -223,6 +223,8 @@ class Env(unittest.TestCase):
         numpy.testing.assert_allclose(env.target, numpy.interp(0.012 * numpy.arange(200), times, ratios), atol=1e-12)
         for points in (list(zip(times, ratios)), [[0, numpy.float32(0.1)], (numpy.int64(1), "30 mm"), {"at": "2 s", "to": 0.1}]):
             self.assertAlmostEqual(mckibben.Env(target={"kind": "points", "points": points}, duration_s=2.4).target[0], 0.1, 7)
+        pair = mckibben.Env(rig="thesis_pair", target={"kind": "points", "points": [[0.0, 0.1], [3.0, 0.4]]}, duration_s=2.4)
+        numpy.testing.assert_allclose(pair.target[[0, 125]], [0.1, 0.25], atol=1e-9)
         with self.assertRaisesRegex(mckibben.InputError, r"^scenario: target\.points\[0\]: .*not a list") as raised:
             mckibben.Env(target={"kind": "points", "points": numpy.zeros((331, 3))})
         self.assertEqual(len(raised.exception.problems), 20)

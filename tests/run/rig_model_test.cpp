@@ -171,6 +171,8 @@ TEST(Compare, ErrorsCountFromTheTargetsFirstMove) {
   EXPECT_LT(moved.runs[0].metrics.largest_error, 0.03);
   scenario.skip_s = 2.0;
   EXPECT_EQ(compared(scenario).targets[0].first, 167u);
+  scenario.skip_s = 1.0;
+  EXPECT_EQ(compared(scenario).targets[0].first, 84u) << "0.996 s is before 1 s";
   scenario.target = controllers::MinimumJerk{{0.05, false}, {}};
   scenario.skip_s.reset();
   EXPECT_EQ(compared(scenario).targets[0].first, 0u) << "a target that never moves counts whole";

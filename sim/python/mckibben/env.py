@@ -116,8 +116,8 @@ class Env(Rules, Base):
 
     def scenario(self, controllers, **keys):
         """The Scenario of this episode's rig, load, target, duration and jitter for others to control:
-        env.scenario([{"kind": "pid"}]).run(). `keys`: further ones of scenario files, such as noise={...}, or
-        others in place of these. Of a member of a VectorEnv: envs.episodes[i].scenario(...)."""
+        env.scenario([{"kind": "pid"}]).run(). `keys`: further ones of scenario files, such as noise={...} or seed=2
+        (of the noise; 1 if left out), or others in place of these. Of a member of a VectorEnv: envs.episodes[i].scenario(...)."""
         if self.episode is None:
             raise RuntimeError("reset comes before the first scenario")
         return self.episode.scenario(controllers, **keys)
