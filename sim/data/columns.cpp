@@ -226,8 +226,8 @@ class Columns {
     if (!judge(quantity, all) || !data_.rig.lifts_a_load()) return;
     const plant::Sensor* sheet = data_.rig.sensors.of(plant::Sensed::force);
     if (const Unit* unit = quantity.unit_said())
-      if (auto found =
-              load_cell_off(runs, key, quantity.place, unit->size, sheet != nullptr ? sheet->accuracy : 0.0))
+      if (auto found = load_cell_off(data_, runs, key, quantity.place, unit->size,
+                                     sheet != nullptr ? sheet->accuracy : 0.0))
         findings_.push_back(std::move(*found));
   }
 

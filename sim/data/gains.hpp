@@ -72,10 +72,11 @@ std::optional<Finding> other_span(const std::vector<Compared>& runs, const std::
 /// to it. `accuracy_Pa`: rms.
 std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
                                            domain::ColumnPlace place, double accuracy_Pa);
-/// A load cell that reads the same too much or too little whatever hangs, by the same factor, or both.
-/// `unit_N`: of its column; of each run alone.
-std::optional<Finding> load_cell_off(const std::vector<Compared>& runs, const std::string& key,
-                                     domain::ColumnPlace place, double unit_N, double accuracy_N);
+/// A load cell that reads the same too much or too little whatever hangs, by the same factor, or both; or one
+/// load that is not what its label says, by the cell. `runs`: of each alone; `unit_N`: of the column.
+std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vector<Compared>& runs,
+                                     const std::string& key, domain::ColumnPlace place, double unit_N,
+                                     double accuracy_N);
 /// Whether a gauge may read so many times what the rig would do.
 bool is_gauge_slope(double slope);
 

@@ -26,8 +26,9 @@ struct Cell {
 
 }  // namespace
 
-std::optional<Finding> load_cell_off(const std::vector<Compared>& runs, const std::string& key,
-                                     domain::ColumnPlace place, double unit_N, double accuracy_N) {
+std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vector<Compared>& runs,
+                                     const std::string& key, domain::ColumnPlace place, double unit_N,
+                                     double accuracy_N) {
   std::vector<double> read_N, hangs_N, offs_N, factors;
   Finding found{.quantity = key, .message = {}, .severity = Severity::doubtful};
   for (const Compared& run : runs) {
@@ -69,7 +70,25 @@ std::optional<Finding> load_cell_off(const std::vector<Compared>& runs, const st
                      middle_N < (1.0 - of_cells.zero_of_load_cell) * most_N;
   const bool by_both = !by_zero && !by_factor && several && three && is_zero(both) && is_factor(both) &&
                        worst(both) <= of_cells.same_zero;
-  if (!by_zero && !by_factor && !by_both) return std::nullopt;
+  if (!by_zero && !by_factor && !by_both) {
+    // Cell and labels agree but in one run: that label, which the cell knows better than the motion does.
+    const auto worst_first =
+        std::ranges::max_element(offs_N, {}, [](double off_N) { return std::abs(off_N); });
+    const auto k = static_cast<std::size_t>(worst_first - offs_N.begin());
+    const double off_N = *worst_first;
+    if (found.runs.size() != offs_N.size() || offs_N.size() < of_cells.least_labels || !is_zero({off_N}))
+      return std::nullopt;
+    for (std::size_t other = 0; other < offs_N.size(); ++other)
+      if (other != k && std::abs(offs_N[other]) > of_cells.same_zero * std::abs(off_N)) return std::nullopt;
+    const std::size_t run = found.runs[k];
+    return Finding{
+        .quantity = "load",
+        .runs = {run},
+        .message = fmt::format(
+            "{} reads {:.3g} N {} than hangs there, in no other run so: is load: {:.4g} kg meant?", key,
+            std::abs(off_N), off_N > 0.0 ? "more" : "less", data.runs[run].load_kg * read_N[k] / hangs_N[k]),
+        .severity = Severity::doubtful};
+  }
   const Cell& cell = by_factor ? factor : by_zero ? zero : both;
   place.zero = domain::significant(place.zero + cell.zero_N / unit_N / place.factor, 3);
   place.factor = domain::significant(place.factor / cell.factor, 3);

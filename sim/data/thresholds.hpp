@@ -54,6 +54,7 @@ struct ColumnThresholds {
   double same_zero = 0.25;                        ///< of that offset: all runs agree on it
   double zero_of_load_cell = 0.02;  ///< of the largest load: no load cell's own zero is off by more,
   double gain_of_load_cell = 0.05;  ///< nor by so much of each: a guide's friction is a few hundredths
+  std::size_t least_labels = 3;     ///< one of them contradicts the others
   double other_load = 1.5;          ///< times the lightest: a load that tells a zero from a factor
 };
 

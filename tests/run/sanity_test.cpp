@@ -159,6 +159,21 @@ TEST(Sanity, AZeroOfAGaugeThatWasForgottenIsAskedFor) {
   for (const std::string& one : said(data)) EXPECT_EQ(one.find(" reads 0."), std::string::npos) << one;
 }
 
+TEST(Sanity, ALabelThatTheLoadCellContradictsInOneRunIsAskedFor) {
+  auto data = sound();
+  data.columns["force"] = {.column = "F", .unit = "N"};
+  for (domain::Run& run : data.runs)
+    run.read("force", std::vector(run.rows(), run.load_kg * plant::gravity_m_per_s2));
+  const double hung_kg = data.runs[2].load_kg;
+  data.runs[2].load_kg += 2.0;
+  const std::string told = fmt::format("{}", fmt::join(said(data), "\n"));
+  EXPECT_TRUE(
+      holds(told, " N less than hangs there, in no other run so: ", fmt::format("is load: {:.2g}", hung_kg)))
+      << told;
+  for (domain::Run& run : data.runs) run.find("force")->values.assign(run.rows(), 150.0);
+  EXPECT_EQ(fmt::format("{}", fmt::join(said(data), "\n")).find("in no other run"), std::string::npos);
+}
+
 // A load does not accelerate on average: what its cell reads more or less is the cell's, or the label's.
 TEST(Sanity, AZeroOrFactorOfALoadCellThatWasForgottenIsAskedFor) {
   const auto told = [](double gain, double zero_N, std::size_t runs = 6) {
