@@ -223,8 +223,8 @@ std::string law_in_words(const Diagnosis& d) {
     return fmt::format("Something is missing that no effect of the catalogue explains; {}. {}",
                        force_in_words(d), gap_in_words(d));
   if (!d.stand_ins.empty())
-    return fmt::format("Something real is missing that no effect of the catalogue explains.{} {}",
-                       stand_ins_in_words(d), gap_in_words(d));
+    return fmt::format("Something real is missing that no effect of the catalogue explains.{} {}{}",
+                       stand_ins_in_words(d), exceeded_in_words(d), gap_in_words(d));
   return "Something real is missing, but no effect of the catalogue explains it, and no simple law of "
          "force was found either.";
 }

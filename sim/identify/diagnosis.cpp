@@ -151,15 +151,24 @@ class HandingOver {
     return best ? &found_.models[*best] : nullptr;
   }
 
+  /// Whether the chosen model leaves more than noise, and more of the gap than an answer may.
+  bool leaves_the_gap() const {
+    return !found_.chosen().error.explains() &&
+           gap_of(found_, three(found_.decision.chosen), experiment_.floor()).closed <
+               diagnose::thresholds.tell.closed;
+  }
+
   Verdict verdict_of_search() {
     const Verdict decided = of_the_rig(found_.decision.verdict);
     if (found_.ended != Ended::no && decided != Verdict::missing_effect) return Verdict::cannot_tell;
     const Model* parameters = without_effects();
-    // Parameters that leave more than noise, and most of the gap, are no answer.
-    if (decided == Verdict::recalibrate && !found_.chosen().error.explains() &&
-        gap_of(found_, three(found_.decision.chosen), experiment_.floor()).closed <
-            diagnose::thresholds.tell.closed)
-      return found_.table[found_.decision.best].general ? Verdict::unknown_effect : Verdict::cannot_tell;
+    if (leaves_the_gap()) {
+      // Parameters that leave the gap are no answer, nor are effects that need what the sheet forbids.
+      if (decided == Verdict::recalibrate)
+        return found_.table[found_.decision.best].general ? Verdict::unknown_effect : Verdict::cannot_tell;
+      if (decided == Verdict::missing_effect && found_.decision.contradicts_sheet)
+        return Verdict::unknown_effect;
+    }
     if (decided != Verdict::nothing_missing) return decided;
     // The rig as described may be chosen for being as good at unseen runs: the parameters say what it leaves.
     if (!found_.chosen().error.explains() && (parameters == nullptr || !parameters->error.explains()))
