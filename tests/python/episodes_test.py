@@ -155,6 +155,38 @@ class Episodes(unittest.TestCase):
                     self.assertEqual(many.step(numpy.full((2, 1), 0.5))[1][0], 0.0)
                 if mode != mckibben.AutoresetMode.DISABLED:
                     self.assertIs(many.finished[0], first)
+                    many.step(numpy.zeros((2, 1)))
+                    self.assertEqual(len(first.rows), len(rewards))
+
+    def test_a_reward_may_remember_each_member(self):
+        class Smooth(mckibben.VectorEnv):
+            before, waited = numpy.zeros((3, 1)), []
+
+            def reward(self, observation, action, usual):
+                change, self.before = abs(action - self.before)[:, 0], action
+                self.waited.append(self.ended.tolist())
+                if self.ended.any():
+                    at = numpy.flatnonzero(self.ended)
+                    ours.assertEqual((usual[at].tolist(), observation[at].tolist()), ([0.0], self.last[at].tolist()))
+                return numpy.where(self.ended, numpy.nan, -change)
+
+            def terminates(self, observation):
+                self.last = observation
+                first = numpy.array([one.tick for one in self.episodes]) == 4
+                return self.ended | (first & (numpy.arange(3) == 1))
+
+        ours, chance = self, numpy.random.default_rng(1)
+        envs = Smooth(3, duration_s=1.2)
+        envs.reset(seed=1)
+        before = numpy.zeros((3, 1))
+        for _ in range(9):
+            actions = chance.uniform(-1.0, 1.0, (3, 1))
+            waits, (_, rewards, terminations, _, _) = envs.ended, envs.step(actions)
+            numpy.testing.assert_allclose(rewards, numpy.where(waits, 0.0, -abs(actions - before)[:, 0]))
+            self.assertFalse((terminations & waits).any())
+            before = actions
+        self.assertEqual([waited.index(True) if any(waited) else None for waited in envs.waited],
+                         [None] * 4 + [1] + [None] * 4)
 
     def test_a_reward_of_another_shape_is_an_error(self):
         for kind, many, wrong in ((mckibben.Env, (), None), (mckibben.Env, (), [1.0]), (mckibben.Env, (), numpy.nan),
@@ -164,9 +196,6 @@ class Episodes(unittest.TestCase):
             env.reset(seed=1)
             with self.assertRaisesRegex(ValueError, r"(?s)reward returned .*: must be (one number|an array of 2, one for)|^reward(\[1\])? = nan: must be finite$"):
                 env.step(numpy.zeros((*many, 1)))
-                if mode != mckibben.AutoresetMode.DISABLED:
-                    many.step(numpy.zeros((2, 1)))
-                    self.assertEqual(len(episodes[0].rows), len(rewards))
 
     def test_says_where_a_muscle_is_shorter_than_one_can_be(self):
         full = {"loads_kg": 11.0, "duration_s": 2.4}

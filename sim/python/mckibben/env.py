@@ -42,16 +42,17 @@ def _no_rendering(mode):
 
 class Rules:
     """What a subclass of Env or VectorEnv may override: its own reward, and its own end of an episode. Both are asked
-    after each tick, before an episode begins again. Of a VectorEnv they get a row for each of the k members that moved:
-    observation[..., 0] is the position in both."""
+    after each tick, before an episode begins again. Of a VectorEnv they get a row for each of its n members, always:
+    observation[..., 0] is the position in both. Of those that wait for their reset (self.ended) `usual` is 0, the
+    observation stays, and what is returned is ignored; episodes[i].tick is 1 in the first step of an episode."""
 
     def reward(self, observation, action, usual):
         """The reward of the tick that ended with `observation`; `usual` is minus the error in per cent, as Env says.
-        Returns a number, of a VectorEnv k of them."""
+        Returns a number, of a VectorEnv n of them."""
         return usual
 
     def terminates(self, observation):
-        """Whether the episode ends here. Returns a bool, of a VectorEnv k of them."""
+        """Whether the episode ends here. Returns a bool, of a VectorEnv n of them."""
         return numpy.zeros(observation.shape[:-1], dtype=bool)
 
     def __copy__(self):
@@ -283,26 +284,25 @@ class VectorEnv(Rules, VectorBase):
         commands = numpy.array([one.commands(action)[0] for one, action in zip(self.episodes, actions)])
         self.batch.jitter = [0.0 if waits else one.shake() for waits, one in zip(waiting, self.episodes)]
         self.batch.step(commands)
-        rewards = numpy.zeros(self.num_envs)
-        terminations, truncations = (numpy.zeros(self.num_envs, dtype=bool) for _ in range(2))
+        usual, truncations = numpy.zeros(self.num_envs), numpy.zeros(self.num_envs, dtype=bool)
         counted, failures = self.batch.contraction_ratio.tolist(), self.batch.failures
         moved = numpy.flatnonzero(~waiting).tolist()
         if moved:
-            seen, usual, truncations[moved] = zip(*(self.episodes[i].arrive(counted[i]) for i in moved))
-            self.observations[moved] = now = self.task.observation(seen)
-            acted, k = numpy.array([self.episodes[i].action for i in moved]), (len(moved),)
-            rewards[moved] = returned("reward", self.reward(now, acted, numpy.array(usual)), k)
-            for i in moved:
-                self.episodes[i].rewarded(float(rewards[i]))
-            terminations[moved] = returned("terminates", self.terminates(now), k)
-            failed = [i for i in moved if i in failures]
-            terminations[failed] = True
-            name, = self.task.command_names(self.episodes[0].rig.command_unit)
-            true = self.batch.state[moved, 0]
-            self._note(infos, moved, {name: commands[moved], "true_contraction_ratio": true,
-                                      "beyond_e_max": true > [self.episodes[i].e_max for i in moved],
-                                      "time_s": numpy.array([self.episodes[i].tick * self.episodes[i].tick_s for i in moved])})
-            self._note(infos, failed, {"failure": [failures[i] for i in failed]})
+            seen, usual[moved], truncations[moved] = zip(*(self.episodes[i].arrive(counted[i]) for i in moved))
+            self.observations[moved] = self.task.observation(seen)
+        now, acted = self.observations.copy(), numpy.array([one.action for one in self.episodes])
+        rewards = returned("reward", self.reward(now, acted, usual), waiting.shape, waiting).astype(float)
+        for i in moved:
+            self.episodes[i].rewarded(float(rewards[i]))
+        terminations = returned("terminates", self.terminates(now), waiting.shape, waiting).astype(bool)
+        failed = [i for i in moved if i in failures]
+        terminations[failed] = True
+        name, = self.task.command_names(self.episodes[0].rig.command_unit)
+        true = self.batch.state[moved, 0]
+        self._note(infos, moved, {name: commands[moved], "true_contraction_ratio": true,
+                                  "beyond_e_max": true > [self.episodes[i].e_max for i in moved],
+                                  "time_s": numpy.array([self.episodes[i].tick * self.episodes[i].tick_s for i in moved])})
+        self._note(infos, failed, {"failure": [failures[i] for i in failed]})
         self.ended = terminations | truncations
         if self.autoreset_mode == AutoresetMode.SAME_STEP:
             if self.ended.any():

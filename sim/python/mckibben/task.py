@@ -42,12 +42,13 @@ def require_finite(name, values):
         raise ValueError(f"{name}{at or ''} = {values[tuple(at)]}: must be finite")
 
 
-def returned(name, given, shape):
-    """What a subclass's method gave: numbers of this shape. Raises ValueError."""
+def returned(name, given, shape, ignored=False):
+    """What a subclass's method gave: numbers of this shape, 0 where they are ignored. Raises ValueError."""
     values = array_of(given)
     if values.dtype.kind not in "fiub" or values.shape != shape:
-        many = f"an array of {shape[0]}, one for each member that moved" if shape else "one number"
+        many = f"an array of {shape[0]}, one for each member" if shape else "one number"
         raise ValueError(f"{name} returned {reprlib.repr(given)}: must be {many}")
+    values = numpy.where(ignored, 0, values)
     require_finite(name, values)
     return values
 
