@@ -245,9 +245,10 @@ class Readings {
                       time_s(still->begin - 1), time_s(still->end - 1));
       if (held) {
         find(i, Severity::masked, "stuck",
-             fmt::format("the {0} stands still{1} though the {2} should move it: {3}something held the {0}",
-                         moving(), when, data_.pressure_is_given() ? "pressure" : command_,
-                         data_.pressure_is_given() ? "" : "the valve was stuck, or "));
+             fmt::format(
+                 "the {} stands still{} where the rig as described moves: {}something that held it, or "
+                 "friction that the rig file lacks",
+                 moving(), when, data_.pressure_is_given() ? "" : "a stuck valve, "));
         continue;
       }
       const std::string why = still->why == Still::Why::frozen ? "frozen" : "saturated";

@@ -43,7 +43,7 @@ std::string_view consequence_of(const Finding& finding) {
     case Severity::left_out:
       return "; left out";
     case Severity::masked:
-      return "; not used";
+      return "; these readings are not used";
     case Severity::ignored:
       return ": the gauge is ignored";
     case Severity::taken_out:

@@ -69,6 +69,11 @@ TEST(Usable, RowsInWhichALoadIsHeldDoNotCount) {
   EXPECT_EQ(found.runs.size(), 3U);
   EXPECT_TRUE(found.masked[1][320]);
   EXPECT_FALSE(found.masked[1][200] || found.masked[1][412]);
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_TRUE(holds(found.warnings[0],
+                    "where the rig as described moves: a stuck valve, something that held it, or friction "
+                    "that the rig file lacks; these readings are not used"))
+      << found.warnings[0];
 }
 
 /// The words that the data are refused with; empty if they are not.
