@@ -171,14 +171,15 @@ struct Absorbed {
   double without = 0.0, with = 0.0;
 };
 
-/// A way to explain the data that was fitted: the rig as described, its numbers within what is said of them,
-/// its numbers further off, effects, a law.
+/// A way to explain the data that was fitted: the rig as described, other values of its parameters, effects,
+/// a law.
 struct Explanation {
-  enum class Kind { nothing, numbers, further_numbers, effects, law };
+  enum class Kind { nothing, numbers, effects, law };
   Kind kind = Kind::nothing;
   std::vector<std::string> effects{};  ///< with their variants
   double misfit = 0.0;                 ///< of the fitted runs, the strain of the priors in it
   double strain = 0.0;                 ///< squares of the numbers' deviations
+  std::string furthest_off{};          ///< of these: "friction.scale by 2.1 times its ±"
   double held_out_rmse = 0.0;
   bool as_good = false;  ///< as the one that is chosen, or better; if none is, as the best
   bool chosen = false;
@@ -191,7 +192,6 @@ constexpr auto names(Explanation::Kind) {
   using enum Explanation::Kind;
   return std::array{std::pair{nothing, std::string_view{"nothing"}},
                     std::pair{numbers, std::string_view{"numbers"}},
-                    std::pair{further_numbers, std::string_view{"further_numbers"}},
                     std::pair{effects, std::string_view{"effects"}}, std::pair{law, std::string_view{"law"}}};
 }
 

@@ -155,10 +155,14 @@ std::string doubts_in_words(const NamedEffect& effect) {
   return said;
 }
 
-/// Which runs speak for it, by name if they are few, and which against.
+/// Which runs speak for it, by name if they are few, and which against. Each is compared with the same rig
+/// without it, whose other numbers are free to stand for it.
 std::string support_in_words(const NamedEffect& effect) {
   const Support& s = effect.support;
   if (s.runs == 0) return {};
+  if (s.by.empty() && s.against.empty())
+    return fmt::format("No run alone separates {} from other values of the rig's parameters. ",
+                       effect.who().words());
   const auto ids = [](const std::vector<std::string>& runs) {
     return fmt::format("run{} {}", runs.size() > 1 ? "s" : "", fmt::join(runs, ", "));
   };

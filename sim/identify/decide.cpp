@@ -106,4 +106,13 @@ Decision decide(const std::vector<Scored>& table) {
   return decision;
 }
 
+bool does_as_well(const std::vector<Scored>& table, const Decision& decision, std::size_t i, double strong) {
+  const Scored &chosen = table[decision.chosen], &other = table[i];
+  if (closes_the_gap_of(chosen, other)) return false;
+  if (allowed(chosen) && !allowed(other) && decision.mass[i] < decisive.mass) return false;
+  const auto [nats, error] = loss(chosen.held_out, other.held_out);
+  return std::max(nats, chosen.score - other.score) <=
+         std::max(decisive.errors * error, strong * decisive.strong);
+}
+
 }  // namespace mckibben::identify

@@ -35,6 +35,11 @@ struct Decision {
 
 Decision decide(const std::vector<Scored>& table);
 
+/// Whether a model predicts unseen runs as well as the chosen one, and is no less probable, by more than runs
+/// disagree about it (Vuong 1989), or by this strong evidence so many times. One that the sheet forbids is so
+/// only by its share of the mass: numbers that are free of the sheet predict whatever is missing.
+bool does_as_well(const std::vector<Scored>& table, const Decision& decision, std::size_t i, double strong);
+
 /// Whether a model closes most of what another one leaves, by strong evidence: a wide model error makes their
 /// predictions alike.
 bool closes_the_gap_of(const Scored& model, const Scored& other);

@@ -25,18 +25,22 @@ bool has(const Names& names, const std::string& name) {
   return std::ranges::binary_search(names, name);
 }
 
-/// Whether a model predicts unseen runs as well as the chosen one, and is no less probable, by more than runs
-/// disagree about it (Vuong 1989). How a run came to where it is first seen on its way is a guess, which
-/// favours one as much in every run: strong evidence of each start is none.
+/// How a run came to where it is first seen on its way is a guess, which favours one as much in every run:
+/// strong evidence of each start is none.
 bool rivals_chosen(const Identified& found, std::size_t i) {
-  const Scored &chosen = found.table[found.decision.chosen], &other = found.table[i];
-  if (closes_the_gap_of(chosen, other)) return false;
-  const auto [nats, error] = loss(chosen.held_out, other.held_out);
   const Rows& rows = found.study->rows;
   const double guesses =
       rows.data().recorded.start == domain::Start::moving ? static_cast<double>(rows.runs.size()) : 1.0;
-  return std::max(nats, chosen.score - other.score) <=
-         std::max(decisive.errors * error, guesses * decisive.strong);
+  return does_as_well(found.table, found.decision, i, guesses);
+}
+
+/// The parameter that is furthest off and by how much; empty where none is free.
+std::string furthest_off(const Model& model) {
+  if (model.point.z.size() == 0) return {};
+  Eigen::Index at = 0;
+  const double deviations = model.point.z.cwiseAbs().maxCoeff(&at);
+  return fmt::format("{} by {:.1f} times its ±",
+                     model.problem->dictionary.parameters[static_cast<std::size_t>(at)].path, deviations);
 }
 
 EffectName who(const Dictionary& dictionary, const std::string& name) {
@@ -137,6 +141,7 @@ std::vector<diagnose::Explanation> explanations(const Identified& found, const s
                     .effects = one.names,
                     .misfit = 2.0 * (best.score - one.score),
                     .strain = z.squaredNorm(),
+                    .furthest_off = furthest_off(found.models[i]),
                     .held_out_rmse = left[i],
                     .as_good = i == found.decision.chosen || rivals_chosen(found, i),
                     .chosen = i == found.decision.chosen,

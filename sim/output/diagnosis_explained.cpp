@@ -47,9 +47,8 @@ std::string explained_by(const diagnose::Explanation& explanation) {
                  ? "nothing: the rig as described"
                  : fmt::format("{} on the rig as described", fmt::join(explanation.effects, " with "));
     case numbers:
-      return "other numbers, as far off as is stated";
-    case further_numbers:
-      return "numbers further off than is stated";
+      return "other values of the rig's parameters" +
+             (explanation.furthest_off.empty() ? "" : fmt::format(" ({})", explanation.furthest_off));
     case law:
       return fmt::format("{}", fmt::join(parts_of(explanation), " with "));
     case effects:

@@ -61,8 +61,8 @@ std::string title_of(const diagnose::Diagnosis& diagnosis);
 using diagnose::full_name;
 using diagnose::listed;
 
-/// What an explanation that competed explains the data by: "muscle_leak with valve_lag", "numbers further off
-/// than they are stated to be".
+/// What an explanation that competed explains the data by: "muscle_leak with valve_lag", "other values of the
+/// rig's parameters (friction.scale by 2.1 times its ±)".
 std::string explained_by(const diagnose::Explanation& explanation);
 
 /// The same of one that explains the data as well: by what differs from what was found, "the same without

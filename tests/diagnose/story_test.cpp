@@ -32,7 +32,10 @@ TEST(Story, NamesTheRunsThatSpeakForANameAndAgainstIt) {
   const auto one = because_of({"a"}, {});
   EXPECT_TRUE(says(one, "Run a speaks for muscle_leak.")) << one;
   const auto none = because_of({}, {});
-  EXPECT_TRUE(says(none, "No single run speaks for muscle_leak.")) << none;
+  EXPECT_TRUE(says(none, "No run alone separates muscle_leak from other values of the rig's parameters."))
+      << none;
+  const auto against = because_of({}, {"c"});
+  EXPECT_TRUE(says(against, "No single run speaks for muscle_leak, run c against it.")) << against;
 }
 
 TEST(Story, NamesFaultsOfTheBenchFirstAndSaysWhereASearchWasEnded) {

@@ -51,6 +51,21 @@ TEST(Decide, PrefersTheSimplerThatPredictsAsWell) {
   EXPECT_EQ(d.verdict, Verdict::recalibrate);
 }
 
+TEST(Decide, HoldsWhatTheSheetForbidsForARivalByItsProbabilityAlone) {
+  Scored stretched = model({}, -6.8, 0.0, 2.0);  // 4 nats are as much as runs disagree by
+  const auto rivals = [&] {
+    const std::vector<Scored> table{stretched, model({"viscous_damping"}, 0.0, 0.0)};
+    Decision decision = decide(table);
+    decision.chosen = 1;
+    return does_as_well(table, decision, 0, 1.0);
+  };
+  EXPECT_TRUE(rivals());
+  stretched.off_sheet = 20.0;
+  EXPECT_FALSE(rivals());
+  stretched.score = -1.0;
+  EXPECT_TRUE(rivals());
+}
+
 TEST(Decide, DoesNotTakeASimplerOneThatTheSheetForbids) {
   Scored stretched = model({}, -1.0, 0.0);
   stretched.off_sheet = 20.0;

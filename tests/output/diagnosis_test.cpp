@@ -235,7 +235,9 @@ TEST(DiagnosisTable, SaysEquivalentModelsByWhatDiffersFromWhatWasFound) {
             "the same with a law of smooth terms in place of a law of 1 smooth term");
   EXPECT_EQ(explained_by({.kind = law, .effects = {"2 of waves"}}), "a law of 2 waves along the stroke");
   EXPECT_EQ(said(creep, {.kind = effects, .effects = {"valve_lag"}}), "valve_lag") << "nothing in common";
-  EXPECT_EQ(said(creep, {.kind = numbers}), "other numbers, as far off as is stated");
+  EXPECT_EQ(said(creep, {.kind = numbers}), "other values of the rig's parameters");
+  EXPECT_EQ(said(creep, {.kind = numbers, .furthest_off = "friction.scale by 2.1 times its ±"}),
+            "other values of the rig's parameters (friction.scale by 2.1 times its ±)");
   found.verdict = diagnose::Verdict::cannot_tell;  // nothing was found that the other could be like
   EXPECT_EQ(said(loads, creep), "bladder_creep");
   EXPECT_EQ(explained_by(described), "bladder_creep on the rig as described");
