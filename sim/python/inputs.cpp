@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <pybind11/stl/filesystem.h>
 
@@ -73,10 +74,33 @@ std::string fields_of(const plant::Rig& rig) {
 
 namespace {
 
+std::string in_words(const plant::Rig& rig) {
+  return fmt::format("{}, rest length {:.6f} m", rig.pair() != nullptr ? "two muscles" : "one muscle",
+                     rig.muscle.rest_length_m);
+}
 std::string repr_of_rig(const Rig& rig) {
-  return fmt::format("<mckibben.Rig: {}, rest length {:.6f} m>",
-                     rig.file.pair() != nullptr ? "two muscles" : "one muscle",
-                     rig.file.muscle.rest_length_m);
+  return fmt::format("<mckibben.Rig: {}>", in_words(rig.file));
+}
+
+std::string repr_of_scenario(const Scenario& scenario) {
+  const domain::Scenario& it = scenario.what;
+  std::string text = fmt::format("<mckibben.Scenario {}: {}", it.name, in_words(it.rig));
+  const auto add = [&](std::string_view one, const auto& names, std::string_view unit = "") {
+    if (!names.empty())
+      text += fmt::format("; {}{} {}{}", one, names.size() > 1 ? "s" : "", fmt::join(names, ", "), unit);
+  };
+  const auto names = [](const auto& all) {
+    std::vector<std::string> found;
+    for (const auto& one : all) found.push_back(one.name);
+    return found;
+  };
+  add("load", it.loads_kg, " kg");
+  add("target", names(it.targets));
+  add("current", names(it.currents));
+  std::vector<std::string> controllers;
+  for (const auto& one : it.controllers) controllers.push_back(controllers::name_of(one));
+  add("controller", controllers);
+  return fmt::format("{}; {:g} s>", text, it.duration_s);
 }
 
 /// The schema of a dict that does not say it.
@@ -308,7 +332,8 @@ void add_inputs(py::module_& module) {
           "target", &sampled_target,
           "Contraction ratio that is wanted at each tick [1], shape (ticks,); of a lever or a pair the angle "
           "[rad]; None where it has not one target.")
-      .def_readonly("warnings", &Scenario::warnings, "What its reader warned of.");
+      .def_readonly("warnings", &Scenario::warnings, "What its reader warned of.")
+      .def("__repr__", &repr_of_scenario);
 
   py::class_<domain::Dataset, std::shared_ptr<domain::Dataset>> datasets(
       module, "Dataset", "Measured runs, and the rig they are of.");

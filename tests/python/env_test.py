@@ -35,6 +35,8 @@ class Env(unittest.TestCase):
         self.assertGreater(info["true_contraction_ratio"], 0.01)
 
     def test_loads_are_drawn_or_asked_for(self):
+        self.assertEqual(mckibben.Env(loads_kg=(10, 9)).loads_kg, (9.0, 10.0))
+        self.assertIsNone(mckibben.Env("thesis_pair").loads_kg)
         env = mckibben.Env(loads_kg=(9.0, 10.0), duration_s=1.0)
         loads = {env.reset(seed=seed)[1]["load_kg"] for seed in range(5)}
         self.assertEqual(len(loads), 5)

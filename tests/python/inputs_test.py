@@ -118,6 +118,9 @@ class Scenarios(unittest.TestCase):
         self.assertEqual(scenario.name, "five_loads")
         again = mckibben.Scenario(scenario.to_dict(), folder=ROOT / "scenarios")
         self.assertEqual(again.to_dict(), scenario.to_dict())
+        self.assertEqual(repr(mckibben.Scenario({**SCENARIO, "name": "swing"})),
+                         "<mckibben.Scenario swing: one muscle, rest length 0.300000 m; loads 11.138, 16.138 kg; "
+                         "controller sine_current; 1.2 s>")
 
     def test_numpy_paths_and_rigs_stand_in_dicts(self):
         rig = mckibben.Rig({"tick": "10 ms"})
@@ -131,6 +134,7 @@ class Scenarios(unittest.TestCase):
         scenario = mckibben.Scenario({"duration": "1 s", "currents": [{"current_1": current, "current_2": current}]})
         self.assertTrue(scenario.rig.pair)
         self.assertIsNone(scenario.target)
+        self.assertRegex(repr(scenario), r": two muscles, .*; load 0 kg; current c01; 1 s>$")
 
     def test_warnings_are_warnings(self):
         with self.assertWarnsRegex(mckibben.InputWarning, "noise.gauge has no effect"):

@@ -90,7 +90,7 @@ class Env(Rules, Base):
         """`rig`, `target` (as in scenario files; of a pair an angle): one, a list of which each episode draws one, or a
         function that makes one of a numpy.random.Generator; without `target` a sine from 0.05 to 0.15 every 4 s, of a
         pair from -15 to 15 deg. `loads_kg`: a load, or two between which each episode draws its
-        own; if left out, three quarters to one and a half of `usual_load_kg` of the episode's rig.
+        own, in either order; if left out, three quarters to one and a half of `usual_load_kg` of the episode's rig.
         `jitter`: root mean square of what shakes the position before it is counted, as a contraction ratio [1] or an
         angle [rad], with the noise that the rig's sensor has.
         Nothing is rendered: plot `history`. Raises InputError, ValueError."""
@@ -131,7 +131,9 @@ class Env(Rules, Base):
     @property
     def loads_kg(self):
         """The lightest and the heaviest that episodes draw; where none were given those of this episode's rig, and None
-        before it is drawn."""
+        before it is drawn or of a pair."""
+        if self.task.pair:
+            return None
         return self.task.loads_of(self.rig) if isinstance(self.rig, Rig) else self.task.loads_kg
 
     @property

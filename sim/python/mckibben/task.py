@@ -120,7 +120,7 @@ class Task:
             if isinstance(loads_kg, numbers.Real):
                 loads_kg = loads_kg, loads_kg
             if isinstance(loads_kg, str) or numpy.shape(loads_kg) != (2,):
-                raise ValueError(f"loads_kg = {loads_kg!r}: one mass, or the lightest and the heaviest, such as (8.0, 23.0)")
+                raise ValueError(f"loads_kg = {loads_kg!r}: one mass, or the lightest and the heaviest, in either order, such as (8.0, 23.0)")
             self.loads_kg = tuple(sorted(self.load(f"loads_kg[{i}]", load) for i, load in enumerate(loads_kg)))
         default = self.PAIR_TARGET if self.pair else self.TARGET
         self.target = default if target is None else target
