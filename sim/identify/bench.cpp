@@ -108,6 +108,8 @@ class FaultReport {
                                                     return place;
                                                   }),
                                 domain::fill_in, number_of(1.0 + size.value, deviation));
+    } else if (entry.bench->of == &Bench::zero) {
+      tell(fault, run(0), zeros, "every run", deviation);
     } else {
       const bool factor = entry.bench->of == &Bench::load_factor;
       std::map<double, std::vector<std::string>> by_load;

@@ -48,7 +48,7 @@ void Model::descend(const Effort& effort) {
       arrived = true;
       return;
     }
-    if (std::isfinite(effort.beat)) {
+    if (std::isfinite(effort.beat) && !far) {  // by another error evidence may sink on the way
       const Here stands = this->here();
       hopeless = !stands.explains &&
                  stands.evidence + again * std::max(stands.evidence - evidence_before, 0.0) < effort.beat;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -19,11 +20,14 @@
 namespace mckibben::identify {
 namespace {
 
-constexpr std::array<BenchNumber, 4> bench_numbers{
+constexpr std::array<BenchNumber, 4> of_loads_and_clocks{
     {{"load_label", "offset", &Bench::load_offset_kg, 1.0, -8.0, 12.0},
      {"load_label", "factor", &Bench::load_factor, 0.05, -0.6, 1.0},
      {"reading_clock", "rate", &Bench::clock, 0.01, -0.3, 0.3},
      {"reading_clock", "offset", &Bench::ahead_s, 0.02, 0.0, 1.0}}};  // late readings are the rig's
+/// What a load cell reads with nothing on it, in N.
+constexpr std::array<BenchNumber, 1> of_load_cells{
+    {{"reading_zero", "offset", &Bench::zero, 5.0, -100.0, 100.0}}};
 
 /// A law with a term more, as one: the term's size is one of its shapes.
 std::optional<diagnose::Candidate> whole(const diagnose::Candidate& c,
@@ -207,16 +211,18 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
     else if (const auto law = whole(c, all); law && law->fits(described_))
       entries.push_back(entry_of(*law, described_));
   const bool of_a_lever = data.judged() == domain::Judged::angle && data.rig.lifts_a_load();
-  if (data.judged() == domain::Judged::contraction || of_a_lever)
-    for (const BenchNumber& number : bench_numbers) {
-      if (number.name == "reading_clock" && data::are_settled_points(data)) continue;  // read by no clock
-      entries.push_back({.name = std::string(number.name),
-                         .bench = &number,
-                         .typical = number.typical,
-                         .either_sign = number.lowest < 0.0,
-                         .lowest = number.lowest < 0.0 ? number.lowest / number.typical : decisive.least,
-                         .highest = number.highest / number.typical});
-    }
+  std::span<const BenchNumber> of_bench;
+  if (data.judged() == domain::Judged::contraction || of_a_lever) of_bench = of_loads_and_clocks;
+  if (data.judged() == domain::Judged::force) of_bench = of_load_cells;
+  for (const BenchNumber& number : of_bench) {
+    if (number.name == "reading_clock" && data::are_settled_points(data)) continue;  // read by no clock
+    entries.push_back({.name = std::string(number.name),
+                       .bench = &number,
+                       .typical = number.typical,
+                       .either_sign = number.lowest < 0.0,
+                       .lowest = number.lowest < 0.0 ? number.lowest / number.typical : decisive.least,
+                       .highest = number.highest / number.typical});
+  }
   std::set<std::string> names;
   for (const Entry& entry : entries) names.insert(entry.name);
   all_names = names.size() + differing.size() + 3;
@@ -316,7 +322,7 @@ Setting Dictionary::setting(const Point& point) const {
     const Entry& entry = entries[added.entry];
     const double size = entry.absent + entry.typical * added.size;
     if (entry.bench != nullptr) {
-      made.bench.*(entry.bench->of) = size;
+      made.bench.*(entry.bench->of) += size;
     } else {
       made.rig = entry.effect->chosen(std::move(made.rig));
       std::vector<double> with;

@@ -104,9 +104,10 @@ Eigen::VectorXd Error::started(const Block& block, const Eigen::VectorXd& start)
 namespace {
 
 double typical_log(int which, const domain::Dataset& data) {
-  // A gauge is off by 20 mbar as easily as an encoder by a millimetre.
-  const double of_a_metre =
-      data.judged() == domain::Judged::pressure ? 2e6 : 1.0 / data.rig.muscle.rest_length_m;
+  // A gauge is off by 20 mbar and a load cell by a newton as easily as an encoder by a millimetre.
+  const double of_a_metre = data.judged() == domain::Judged::pressure ? 2e6
+                            : data.judged() == domain::Judged::force  ? 1e3
+                                                                      : 1.0 / data.rig.muscle.rest_length_m;
   const Differing& one = differing.at(static_cast<std::size_t>(which));
   return std::log(which == zeros || which == drifts ? one.typical * of_a_metre : one.typical);
 }

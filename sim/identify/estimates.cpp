@@ -152,6 +152,7 @@ class Estimating {
     if (entry.bench != nullptr) {
       const std::string unit = entry.bench->of == &Bench::load_offset_kg ? "kg"
                                : entry.bench->of == &Bench::ahead_s      ? "s"
+                               : entry.bench->of == &Bench::zero         ? "N"
                                                                          : "1";
       result_.bench.push_back(
           number(std::string(entry.bench->variant), unit, of_size, lowest, entry.highest, size));

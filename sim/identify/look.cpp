@@ -209,7 +209,7 @@ bool Search::look_from(Model base, bool far, bool first) {
   std::vector<Probe> list = again ? still_worth(base, parts) : probes(dictionary_, base.point);
   const Eigen::MatrixXd columns = columns_of(base, list);
   if (!again) seen_ = {list, columns};
-  if (far) {  // what candidates explain is not the error's
+  if (far || !base.error.explains()) {  // what candidates explain is not the error's
     const Eigen::VectorXd left = base.residual();
     std::vector<Index> thin;
     for (std::size_t j = 0; j < list.size(); ++j)

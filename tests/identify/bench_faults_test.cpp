@@ -10,6 +10,7 @@
 #include <sim/domain/number.hpp>
 #include <sim/identify/diagnosis.hpp>
 
+#include "diagnose/bench.hpp"
 #include "diagnose/planted.hpp"
 #include "identify/handed_over.hpp"
 #include "says.hpp"
@@ -197,6 +198,18 @@ TEST(HandedOver, LoadsThatAreOffByAFactorAndOneBesides) {
   EXPECT_NEAR(found.bench[0].loads_kg.front(), true_kg, 0.05 * true_kg);
   EXPECT_TRUE(found.bench[1].words.starts_with("the loads of all other runs are less")) << found.because;
   EXPECT_EQ(found.bench[1].runs.size(), data.runs.size() - 1);
+}
+
+TEST(HandedOver, TheZeroOfTheLoadCellOfAMuscleThatIsHeld) {
+  domain::Dataset data = diagnose::on_a_bench({}, 0.5);
+  for (domain::Run& run : data.runs)
+    for (double& force_N : run.judged().values) force_N += 6.0;
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 1U) << found.because;
+  EXPECT_EQ(found.bench[0].name, "reading_zero");
+  EXPECT_TRUE(surrounds(found.bench[0].size, 6.0));
+  EXPECT_TRUE(holds(found.bench[0].write, "force: {", "zero: 5.9")) << found.bench[0].write;
+  EXPECT_TRUE(found.effects.empty()) << found.because;
 }
 
 }  // namespace

@@ -152,6 +152,31 @@ Identified with_general_terms(domain::Dataset data, const Settings& settings, Te
   return found;
 }
 
+// A leak that the sheet allows is found where more is missing; one that needs other parameters is not.
+TEST(HandedOver, NamesThatLeaveTheGapAndNeedWhatTheSheetForbidsAreNoFindings) {
+  plant::Rig truth;
+  truth.effects.get<plant::ResidualForce>().terms = {{plant::Basis::sine, 8.0, 0.012}};
+  const Settings settings{.threads = 2};
+  Identified found = with_general_terms(diagnose::small(truth, 2.5), settings, Terms::smooth, 25.0);
+  const Model& parameters = found.models[1];
+  const auto& entries = found.study->dictionary.entries;
+  const auto leak = std::ranges::find(entries, "muscle_leak", &Entry::name);
+  ASSERT_NE(leak, entries.end());
+  Model named(found.study->problem,
+              parameters.point.with({static_cast<std::size_t>(leak - entries.begin()), 1.0}),
+              parameters.error);
+  named.look();
+  named.evidence();
+  found.models[2] = named;
+  found.table[2] = {.names = {"muscle_leak"}, .held_out = held_out(named, groups_of(found.study->rows))};
+  found.decision = {.verdict = Verdict::missing_effect, .chosen = 2, .best = 2, .mass = {0.0, 0.0, 1.0}};
+  EXPECT_EQ(diagnosis_of(found, settings).verdict, Verdict::missing_effect);
+  found.decision.contradicts_sheet = true;
+  const Diagnosis said = diagnosis_of(found, settings);
+  EXPECT_EQ(said.verdict, Verdict::unknown_effect) << said.because;
+  EXPECT_TRUE(said.effects.empty());
+}
+
 TEST(HandedOver, ALawOutsideTheCatalogueThatTheRigCarries) {
   plant::Rig truth;
   truth.effects.get<plant::ResidualForce>().terms = {
