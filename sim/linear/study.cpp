@@ -18,12 +18,16 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
   const auto add = [&](const std::string& name, const System& open) -> Loop& {
     return result.loops.emplace_back(name, open, margins_of(open));
   };
+  // Also of a loop that a small swing's friction steadies: larger ones grow.
+  const auto calm = [&](Loop& loop, const controllers::PidForm& pid, const auto&... filter) {
+    if (!margins_of(loop_of(still, pid, rig.tick_s, filter...)).stable)
+      loop.calmed_m_per_s = calmed_m_per_s(still, pid, rig.tick_s, filter...);
+  };
   for (const controllers::Settings& each : controllers) {
     if (!is_linear(each)) continue;
     const auto& pid = *controllers::part_of<controllers::PidForm>(each);
     const auto* filter = filter_of(each);
-    Loop& loop = add(name_of(each), loop_of(point, pid, rig.tick_s, filter));
-    if (!loop.margins.stable) loop.calmed_m_per_s = calmed_m_per_s(still, pid, rig.tick_s, filter);
+    calm(add(name_of(each), loop_of(point, pid, rig.tick_s, filter)), pid, filter);
   }
   if (question.margins)
     if (const auto found = pid_by_margins(point, rig.tick_s, *question.margins)) {
@@ -33,6 +37,7 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
       loop.binds_rad_per_s = found->binds_rad_per_s;
       loop.left_rad = found->left_rad;
       loop.shortest = found->shortest;
+      calm(loop, pid_of(found->gains));
     }
   if (question.lqr) {
     const Regulator regulator = lqr(point, rig.tick_s, question.lqr->position, question.lqr->command);

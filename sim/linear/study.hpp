@@ -17,7 +17,7 @@ struct Loop {
   std::string name;
   System open;
   Margins margins{};
-  double calmed_m_per_s = 0.0;   ///< of an unstable one, see there
+  double calmed_m_per_s = 0.0;   ///< where it is unstable without friction, see there
   std::string_view binds{};      ///< of `pid_by_margins`, the margin that more gain would cost: gain or phase
   double binds_rad_per_s = 0.0;  ///< where it would cost the phase margin
   double left_rad = 0.0;         ///< of the phase margin, there

@@ -62,7 +62,10 @@ std::string margins_line(const linear::Loop& loop, bool in_a_swing) {
                                       "margin there is {:.0f} deg",
                                       at(loop.binds_rad_per_s), loop.left_rad / plant::degree_rad)
                                 : fmt::format("; the {} margin binds", loop.binds);
-  return fmt::format("  {:18} {:30} {}{}{}{}\n", loop.name, gain, phase, shrunk, binds,
+  const std::string faster = loop.calmed_m_per_s > 0.0
+                                 ? fmt::format("; swings faster than {:.3g} m/s grow", loop.calmed_m_per_s)
+                                 : "";
+  return fmt::format("  {:18} {:30} {}{}{}{}{}\n", loop.name, gain, phase, shrunk, faster, binds,
                      loop.shortest ? "; the shortest integral_time searched" : "");
 }
 

@@ -64,6 +64,7 @@ TEST_F(Linearise, SaysPolesAndMarginsAndWritesWhatItSays) {
   const std::string swing = " --swing '" + from_speed.substr(0, from_speed.find('"')) + "'";
   const auto calmer = result_of("loops.yaml --at 0.15" + swing).at("points").at(0).at("loops").at(1);
   EXPECT_GT(calmer.at("gain_margin").get<double>(), 1.0) << swing;
+  EXPECT_TRUE(holds(read_text(folder / "table.txt"), "; swings faster than ", " m/s grow"));
   result_of("loops.yaml --at 0.15 --swing '5 m/s'");
   EXPECT_TRUE(
       holds(read_text(folder / "table.txt"), "wild               unstable in this swing; swings slower"));
