@@ -216,7 +216,7 @@ struct FaultyRun {
 
 /// A mistake of the bench or of the recorder: no effect of the rig.
 struct BenchFault {
-  std::string name;                 ///< load_label, loads_differ, zeros_differ, gains_differ, reading_zero, ...
+  std::string name;  ///< load_label, loads_differ, zeros_differ, gains_differ, reading_zero, ...
   std::vector<std::string> runs{};  ///< that have it
   FittedNumber size{};             ///< a load: what to add to it, or its factor less 1; a reading: what it is
                                    ///< too high by, or its factor less 1; a clock: what it is slow by, of 1

@@ -29,11 +29,11 @@ void report(const domain::Dataset& data, const data::Finding& finding, Usable& r
   if (finding.kind.empty()) return;
   const bool left_out = finding.severity == data::Severity::left_out;
   for (const std::size_t run : finding.runs)
-    result.faulty.push_back({.run = data.runs[run].id,
-                             .kind = finding.kind,
-                             .action = left_out ? "left out" : "masked",
-                             .words = left_out ? "left out, " + finding.message
-                                               : finding.message + std::string(consequence)});
+    result.faulty.push_back(
+        {.run = data.runs[run].id,
+         .kind = finding.kind,
+         .action = left_out ? "left out" : "masked",
+         .words = left_out ? "left out, " + finding.message : finding.message + std::string(consequence)});
 }
 
 }  // namespace
