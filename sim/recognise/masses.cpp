@@ -83,7 +83,8 @@ Masses masses_in(const std::string& text, bool is_name) {
     std::ranges::transform(unit, unit.begin(),
                            [](char c) { return c < 'a' ? static_cast<char>(c + 'a' - 'A') : c; });
     const std::string whole = std::to_string(std::stol(match[2])), fraction = match[4];
-    const std::string mass = fmt::format("{}{}{} {}", whole, fraction.empty() ? "" : ".", fraction, unit);
+    const std::string digits = fraction.substr(0, fraction.find_last_not_of('0') + 1);  // 10.0 kg is 10 kg
+    const std::string mass = fmt::format("{}{}{} {}", whole, digits.empty() ? "" : ".", digits, unit);
     constexpr std::size_t of_thousands = 3;
     const bool either = unit == "g" && fraction.size() == of_thousands && match.str(3).front() == ',';
     const auto number_at = static_cast<std::size_t>(match.position(2));

@@ -71,6 +71,7 @@ TEST(Headings, WordsAndUnitsTell) {
 TEST(Loads, StandInNames) {
   EXPECT_EQ(load_in("load_5kg_run2"), "5 kg");
   EXPECT_EQ(load_in("m5,5kg"), "5.5 kg");
+  EXPECT_EQ(load_in("10kg, 10,0 kg"), "10 kg");
   EXPECT_EQ(load_in("run2_11p138_kg"), "11.138 kg");
   EXPECT_EQ(load_in("lift 500g"), "500 g");
   EXPECT_EQ(load_in("Messung_520g_tri"), "520 g");
