@@ -23,7 +23,7 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
   const Eigen::VectorXd variance = Model(problem_, point, base.error, base.term_N).variance();
   for (int g = 0; g < static_cast<int>(differing.size()); ++g) {
     if (point.lets_differ(g) || (unlike_ && (g == zeros || g == gains || g == loads)) ||
-        (g == delays && data::are_settled_points(rows_.data())))
+        ((g == delays || g == drifts) && data::are_settled_points(rows_.data())))
       continue;
     Point q = point;
     q.differ.push_back(g);
