@@ -99,6 +99,8 @@ class Columns {
 
   void operator()() {
     if (auto found = reversed_flow(data_)) return findings_.push_back(std::move(*found));
+    findings_ = pressures_of_a_held_muscle(data_);
+    if (!findings_.empty()) return;
     findings_ = exchanged(data_, expected_);
     if (!findings_.empty()) {  // what else their columns seem to be is not so
       map_ =
@@ -214,7 +216,7 @@ class Columns {
   Quantity force(const std::string& key, bool by_mean) const {
     return {.key = key,
             .place = map_[key],
-            .units = {{"N", 1.0}, {"kN", 1e3, of_columns.same_kilo}, {"kgf", plant::gravity_m_per_s2}},
+            .units = units_of_force(),
             .shown = " N",
             .opposite = by_mean ? of_columns.opposite_mean : of_columns.opposite,
             .by_mean = by_mean};

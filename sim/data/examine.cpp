@@ -193,10 +193,21 @@ class Readings {
     if (result_.left_out[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true) - absent;
     const auto read = static_cast<std::ptrdiff_t>(masked.size()) - absent;
-    if (const auto row = lost_counts(values, sharpest, masked, count, data_.row_s()))
+    if (const auto row = lost_counts(values, sharpest, with_gaps(i, masked), count, data_.row_s()))
       leave_out(i, lost_in_words(i, values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > of_readings.most_masked * static_cast<double>(read) || read == 0)
       leave_out(i, "too little of it is left");
+  }
+
+  /// With the rows after a gap in the stamps: what lies between was not seen.
+  std::vector<bool> with_gaps(std::size_t i, std::vector<bool> masked) const {
+    if (!data_.runs[i].measured) return masked;
+    const domain::Measurement& stamps = *data_.runs[i].measured;
+    for (std::size_t k = 1; k < std::min(masked.size(), stamps.rows.size()); ++k)
+      if (stamps.time_s[stamps.rows[k]] - stamps.time_s[stamps.rows[k - 1]] >
+          of_readings.gap_rows * data_.row_s())
+        masked[k] = true;
+    return masked;
   }
 
   std::string lost_in_words(std::size_t i, double jump, double at_s) const {

@@ -77,6 +77,8 @@ std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, co
 std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vector<Compared>& runs,
                                      const std::string& key, domain::ColumnPlace place, double unit_N,
                                      double accuracy_N);
+/// A pressure that is given to a muscle at given lengths, in a larger unit than is said, by its force.
+std::vector<Finding> pressures_of_a_held_muscle(const domain::Dataset& data);
 /// Whether a gauge may read so many times what the rig would do.
 bool is_gauge_slope(double slope);
 

@@ -222,10 +222,34 @@ class Ranges {
     const bool given = meant.as == domain::Role::input;
     const char* can = quantity.channel.signal->key == "muscle_pressure" ? "what a muscle can be given"
                                                                         : "what a valve can give";
-    meant.unit = likely_unit_of_pressure(meant.unit);
+    std::string hint;
+    if (const Series* force_N = values_of("force_N");
+        force_N != nullptr && could_be_exchanged_with_force(*force_N, meant)) {
+      ColumnPlace force = map_["force"];
+      std::swap(meant.column, force.column);
+      hint = fmt::format("it looks exchanged with force; write columns: {{{}, {}}}",
+                         line_of(quantity.key, meant), line_of("force", force));
+    } else {
+      meant.unit = likely_unit_of_pressure(meant.unit);
+      hint = fmt::format("is it in another unit (kPa, mbar, Pa, psi)? Then write so, as in columns: {{{}}}",
+                         line_in_unit(quantity.key, meant));
+    }
     look(given ? lowest_given_bar : lowest_read_bar, highest_bar, given ? can : "what a gauge can show",
-         fmt::format("is it in another unit (kPa, mbar, Pa, psi)? Then write so, as in columns: {{{}}}",
-                     line_in_unit(quantity.key, meant)));
+         hint);
+  }
+
+  /// Whether either column would do as the other: as a pressure of the supply, and as what it has the braid
+  /// pull.
+  bool could_be_exchanged_with_force(const Series& force_N, const ColumnPlace& as_pressure) const {
+    const std::vector<Unit> units = units_of_pressure();
+    const Unit* const unit = find_unit(units, as_pressure.unit);
+    if (unit == nullptr || map_["force"].unit != "N") return false;
+    const double bar = as_pressure.factor * unit->size / plant::Pa_per_bar, N = map_["force"].factor;
+    const double most_Pa = thresholds.plausible.beyond_supply * rig_.valve.supply_pressure_Pa;
+    const double seems_Pa = largest_read(force_N) / N * bar * plant::Pa_per_bar,
+                 seems_N = largest_read(values()) / bar * N;
+    return seems_Pa > thresholds.plausible.lifts_nothing_Pa && seems_Pa < most_Pa &&
+           seems_N < plant::Braid(rig_.muscle).largest_force_N(most_Pa);
   }
 
   /// The largest in which its numbers are no more than the rig's supply; a guess where there is none.

@@ -54,6 +54,7 @@ struct ColumnThresholds {
   double same_zero = 0.25;                        ///< of that offset: all runs agree on it
   double zero_of_load_cell = 0.02;  ///< of the largest load: no load cell's own zero is off by more,
   double gain_of_load_cell = 0.05;  ///< nor by so much of each: a guide's friction is a few hundredths
+  double held_steepness = 1.5;      ///< of a braid as described: units of pressure are further apart
   std::size_t least_labels = 3;     ///< one of them contradicts the others
   double other_load = 1.5;          ///< times the lightest: a load that tells a zero from a factor
 };
@@ -104,6 +105,7 @@ struct ReadingThresholds {
   double lost_counts = 20.0;         ///< a jump that stays: more than this,
   double lost_steps = 8.0;           ///< and so many median steps,
   double lost_bends = 4.0;           ///< and so many of the model's bends
+  double gap_rows = 2.5;             ///< between two stamps: rows were not read,
   double lost_change = 0.25;         ///< of the jump: what the speed may change by at most
   double still_s = 0.5;              ///< a reading stands still from here on
   double at_zero_counts = 3.0;       ///< below it the load rests on the braid's stop

@@ -37,6 +37,13 @@ bool names_unit(std::string_view heading, std::string_view unit) {
   return false;
 }
 
+std::vector<Unit> units_of_force() {
+  return {{"N", 1.0},
+          {"kN", 1e3, thresholds.column.same_kilo},
+          {"kgf", plant::gravity_m_per_s2},
+          {"lbf", 4.448222}};
+}
+
 const Unit* find_unit(const std::vector<Unit>& units, std::string_view name) {
   const auto found = std::ranges::find(units, name, &Unit::name);
   return found != units.end() ? &*found : nullptr;

@@ -26,6 +26,8 @@ std::vector<Unit> units_of_contraction(const plant::Rig& rig);
 inline constexpr std::array<std::pair<std::string_view, double>, 6> pressure_units{
     {{"MPa", 1e6}, {"bar", 1e5}, {"psi", 6894.757}, {"kPa", 1e3}, {"mbar", 1e2}, {"Pa", 1.0}}};
 std::vector<Unit> units_of_pressure();
+/// In N.
+std::vector<Unit> units_of_force();
 
 /// Whether a heading says a unit, as a word of its own: `Linear pos (mm)`.
 bool names_unit(std::string_view heading, std::string_view unit);

@@ -32,6 +32,28 @@ TEST(Usable, ForcesOfABenchInAnotherUnitAreRefused) {
   EXPECT_THROW(usable(data, 1), data::UnfitData);
 }
 
+// The braid says how steeply force follows pressure; a radius that is a tenth off changes that by a fifth.
+TEST(Usable, PressuresOfAHeldMuscleInASmallerUnitThanIsSaidAreRefused) {
+  const auto refused_as = [](double factor, const std::vector<std::size_t>& runs) {
+    domain::Dataset data = diagnose::on_a_bench({}, 0.0);
+    data.columns["muscle_pressure"] = {.column = "p", .unit = "bar", .as = domain::Role::input};
+    for (const std::size_t run : runs)
+      for (double& pressure_Pa : data.runs[run].measured->give("muscle_pressure")) pressure_Pa *= factor;
+    try {
+      usable(data, 1);
+    } catch (const data::UnfitData& unfit) {
+      return std::string(unfit.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused_as(1.0, {}), "");
+  EXPECT_EQ(refused_as(0.8, {0, 1, 2, 3, 4}), "");
+  EXPECT_TRUE(holds(refused_as(0.1, {2}), "run r3: force follows muscle_pressure ",
+                    "times as steeply as this braid would: the pressure looks like MPa, not bar; ",
+                    "{column: p, unit: MPa, as: input"));
+  EXPECT_TRUE(holds(refused_as(0.1, {0, 1, 2, 3, 4}), "all runs: force follows"));
+}
+
 TEST(Usable, RowsAtTheEndOfTheRangeDoNotCount) {
   plant::Rig rig;
   rig.sensors.position().kind = plant::SensorKind::laser;

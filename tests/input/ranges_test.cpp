@@ -40,6 +40,20 @@ TEST(Ranges, ASignComesBeforeAnExchangeOfColumns) {
   EXPECT_EQ(asked(even(0.0, 0.2)), "");
 }
 
+TEST(Ranges, AGivenPressureThatIsAForceLooksExchangedWithIt) {
+  domain::ColumnMap map;
+  map["muscle_pressure"] = {.column = "F", .unit = "bar", .as = domain::Role::input};
+  map["force"] = {.column = "p", .unit = "N"};
+  const auto asked = [&](const std::vector<double>& bar, const std::vector<double>& N) {
+    const std::vector<ReadColumn> columns{{"muscle_pressure_bar", &bar}, {"force_N", &N}};
+    const auto found = check_ranges(columns, map, rig_of_250_mm());
+    return found.empty() ? "" : found.front().message;
+  };
+  EXPECT_TRUE(holds(asked(even(20.0, 400.0), even(0.2, 5.0)), "it looks exchanged with force",
+                    "{muscle_pressure: {column: p, unit: bar, as: input}, force: {column: F, unit: N}}"));
+  EXPECT_TRUE(lacks(asked(even(20.0, 400.0), even(20.0, 390.0)), "exchanged")) << "no pressure of its supply";
+}
+
 TEST(Ranges, LengthsThatNoMuscleCanBeHeldAtAreToldOnce) {
   domain::ColumnMap map;
   map["contraction"] = {.column = "x", .unit = "mm", .factor = -1.0, .as = domain::Role::input};
