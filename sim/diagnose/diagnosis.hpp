@@ -246,6 +246,9 @@ struct Gap {
   /// Of runs with faults of their own, which no other run foretells: with these taken out, not held out.
   std::optional<double> mended_rmse{};
 
+  /// Before anything is added: other values of parameters may predict unseen runs worse.
+  bool nominal_is_nearer() const { return nominal_rmse < recalibrated_rmse; }
+
   /// How many noise floors the corrected rig leaves; 0 if nothing was compared.
   double floors_left() const {
     return noise_floor > 0.0 ? mended_rmse.value_or(corrected_rmse) / noise_floor : 0.0;

@@ -287,7 +287,9 @@ class HandingOver {
             plant::name_of(result_.gap.judged)));
     result_.runs = gaps_of_runs(found_, all, experiment_);
     const auto rig_of = [](const Model& model) { return model.problem->dictionary.setting(model.point).rig; };
-    result_.where = diagnose::where(experiment_, rig_of(all.recalibrated), usable_.runs, reporting_.seed);
+    result_.where =
+        diagnose::where(experiment_, rig_of(result_.gap.nominal_is_nearer() ? all.nominal : all.recalibrated),
+                        usable_.runs, reporting_.seed);
     const domain::Dataset mended = without_faults(mended_ ? *mended_ : found_.models[handed]);
     for (const diagnose::BenchFault& fault : result_.bench)
       for (std::size_t i = 0; i < fault.loads_kg.size(); ++i)

@@ -75,10 +75,17 @@ std::string gap_row(const char* name, double rmse, const diagnose::Gap& gap, con
                      amount_html(rmse, gap.judged, rig), floors);
 }
 
+/// The model whose gap the map shows.
+const char* before_additions(const Diagnosis& diagnosis) {
+  return diagnosis.gap.nominal_is_nearer() ? "nominal" : "recalibrated";
+}
+
 /// Where much of the gap sits in little of the data, in a sentence; empty if it is spread evenly.
 std::string concentration(const Diagnosis& diagnosis, const plant::Rig& rig) {
-  if (diagnosis.gap.recalibrated_rmse < diagnose::thresholds.tell.at_floor * diagnosis.gap.noise_floor)
-    return paragraph("Nothing is left here: the recalibrated model is as near as the noise floor.");
+  if (std::min(diagnosis.gap.nominal_rmse, diagnosis.gap.recalibrated_rmse) <
+      diagnose::thresholds.tell.at_floor * diagnosis.gap.noise_floor)
+    return paragraph(fmt::format("Nothing is left here: the {} model is as near as the noise floor.",
+                                 before_additions(diagnosis)));
   const auto dense = diagnose::densest(diagnosis.where);
   if (dense.empty()) return "";
   const diagnose::Cell& most = dense.front().cell;
@@ -96,12 +103,13 @@ std::string where_html(const Diagnosis& diagnosis, const plant::Rig& rig) {
   if (diagnosis.where.empty()) return "";
   const output::JudgedWords& judged = output::words_of(diagnosis.gap.judged);
   return paragraph(fmt::format(
-             "Measured less recalibrated model, before anything was added, as {}, averaged "
+             "Measured less {} model, before anything was added, as {}, averaged "
              "over parts of the data. Orange: {} than the model says; blue: {}. Framed "
              "and marked with *: the mean of this part differs from the mean over all parts of its picture "
              "(where there is only one, from 0) by more than chance; of all marks {:g} % may be false. "
              "Dashed: the data never went there, so nothing is known of it.",
-             judged.what, judged.more, judged.less, 100.0 * diagnose::thresholds.where.false_discoveries)) +
+             before_additions(diagnosis), judged.what, judged.more, judged.less,
+             100.0 * diagnose::thresholds.where.false_discoveries)) +
          concentration(diagnosis, rig) + figures_html(where_pictures(diagnosis, rig));
 }
 
