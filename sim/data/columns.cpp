@@ -244,18 +244,6 @@ class Columns {
             .opposite = std::numeric_limits<double>::infinity()};  // what does not follow is dead
   }
 
-  /// One finding for all runs of which the same is to be said; `seen` is of the first.
-  void find(const std::string& quantity, const std::vector<std::size_t>& runs, const std::string& seen,
-            const std::string& so, Severity severity = Severity::refused) {
-    const auto same_as = [&](const Finding& one) {
-      return one.severity == severity && one.message.ends_with(so);
-    };
-    const auto found = std::ranges::find_if(findings_, same_as);
-    if (found == findings_.end())
-      findings_.push_back({.quantity = quantity, .runs = runs, .message = seen + so, .severity = severity});
-    else
-      found->runs.insert(found->runs.end(), runs.begin(), runs.end());
-  }
   static std::string mend(std::string_view what, std::string_view line) {
     return fmt::format("{}; write columns: {{{}}}", what, line);
   }
@@ -301,13 +289,13 @@ class Columns {
     const double seen = quantity.by_mean ? mean(rows.measured)
                         : opposite       ? range(rows.measured)
                                          : largest(rows.measured);
-    find(quantity.key, rows.runs,
-         fmt::format("{} {} {:.4g}{}, {:.3g} times what the rig would do; ", quantity.key,
-                     quantity.by_mean ? "is on average"
-                     : opposite       ? "moves by"
-                                      : "is up to",
-                     seen / quantity.of_shown, quantity.shown, scale),
-         what);
+    add(findings_, quantity.key, rows.runs,
+        fmt::format("{} {} {:.4g}{}, {:.3g} times what the rig would do; ", quantity.key,
+                    quantity.by_mean ? "is on average"
+                    : opposite       ? "moves by"
+                                     : "is up to",
+                    seen / quantity.of_shown, quantity.shown, scale),
+        what);
     return false;
   }
 
@@ -319,14 +307,14 @@ class Columns {
     ColumnPlace amperes = map_["current"];
     amperes.unit = std::string("A");  // g++ 12 warns of a literal
     if (most_mA > 0.0 && most_mA < valve.span_command * of_columns.amperes)
-      find("current", {i}, never,
-           mend("; this looks like amperes, not mA", line_in_unit("current", amperes)));
+      add(findings_, "current", {i}, never,
+          mend("; this looks like amperes, not mA", line_in_unit("current", amperes)));
     else if (most_mA < valve.zero_command && range(run.judged().values) > moving())
-      find("current", {i}, never,
-           fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
-                       "another unit, or a share of the range? unit, zero and factor in columns: current say "
-                       "so",
-                       valve.zero_command));
+      add(findings_, "current", {i}, never,
+          fmt::format(", where the valve does nothing (below {:.3g} mA), yet the muscle moves; is this "
+                      "another unit, or a share of the range? unit, zero and factor in columns: current say "
+                      "so",
+                      valve.zero_command));
   }
 
   void gauge(std::size_t i, std::size_t reading) {
@@ -370,15 +358,15 @@ class Columns {
     const double sign = off_Pa > 0.0 ? 1.0 : -1.0;
     if (const std::optional<double> said = size_Pa(meant.unit))
       meant.zero += sign * data_.rig.gas.atmosphere_Pa / *said / meant.factor;
-    find(quantity.key, {run},
-         fmt::format("{} is about one atmosphere too {}{}; ", quantity.key, sign > 0.0 ? "high" : "low",
-                     everywhere ? ""
-                                : fmt::format(" where the rig is at rest, {:.3g} bar, in the middle",
-                                              off_Pa / plant::Pa_per_bar)),
-         mend(sign > 0.0 ? "this looks like absolute, not gauge pressure: the zero takes the atmosphere off"
-                         : "an atmosphere seems to be taken off what is gauge pressure already",
-              line_of(quantity.key, meant)),
-         everywhere ? Severity::refused : Severity::doubtful);
+    add(findings_, quantity.key, {run},
+        fmt::format("{} is about one atmosphere too {}{}; ", quantity.key, sign > 0.0 ? "high" : "low",
+                    everywhere ? ""
+                               : fmt::format(" where the rig is at rest, {:.3g} bar, in the middle",
+                                             off_Pa / plant::Pa_per_bar)),
+        mend(sign > 0.0 ? "this looks like absolute, not gauge pressure: the zero takes the atmosphere off"
+                        : "an atmosphere seems to be taken off what is gauge pressure already",
+             line_of(quantity.key, meant)),
+        everywhere ? Severity::refused : Severity::doubtful);
   }
 
   static constexpr const char* divided_twice = "";

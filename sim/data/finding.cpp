@@ -26,6 +26,16 @@ bool is_error(const Finding& finding) {
   return is_refused(finding) || finding.severity == Severity::unusable;
 }
 
+void add(std::vector<Finding>& findings, const std::string& quantity, const std::vector<std::size_t>& runs,
+         const std::string& seen, const std::string& so, Severity severity) {
+  const auto found = std::ranges::find_if(
+      findings, [&](const Finding& one) { return one.severity == severity && one.message.ends_with(so); });
+  if (found == findings.end())
+    findings.push_back({.quantity = quantity, .runs = runs, .message = seen + so, .severity = severity});
+  else
+    found->runs.insert(found->runs.end(), runs.begin(), runs.end());
+}
+
 std::string text_of(const domain::Dataset& data, const Finding& finding) {
   const std::size_t count = finding.runs.size();
   if (count == 0) return finding.message;

@@ -40,6 +40,10 @@ struct Finding {
   std::vector<SeemingLoad> exchanged{};  ///< loads that have each other's labels, and what they should be
 };
 
+/// One finding for all runs of which the same is to be said; `seen` is of the first.
+void add(std::vector<Finding>& findings, const std::string& quantity, const std::vector<std::size_t>& runs,
+         const std::string& seen, const std::string& so, Severity severity = Severity::refused);
+
 /// As "run r02: MESSAGE", "runs r01, r02: MESSAGE" or "all runs: MESSAGE".
 std::string text_of(const domain::Dataset& data, const Finding& finding);
 /// What a diagnosis does about it: "; left out". Empty if nothing.

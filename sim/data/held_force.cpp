@@ -51,15 +51,10 @@ std::vector<Finding> pressures_of_a_held_muscle(const domain::Dataset& data) {
     const Unit& nearest = *std::ranges::min_element(units, {}, off);
     if (&nearest == said || off(nearest) > std::log(thresholds.column.held_steepness)) continue;
     place.unit = nearest.name;
-    const std::string so = fmt::format(
-        "times as steeply as this braid would: the pressure looks like {}, not {}; write columns: {{{}}}",
-        nearest.name, said->name, line_in_unit("muscle_pressure", place));
-    if (!findings.empty() && findings.back().message.ends_with(so))
-      findings.back().runs.push_back(i);
-    else
-      findings.push_back({.quantity = "muscle_pressure",
-                          .runs = {i},
-                          .message = fmt::format("force follows muscle_pressure {:.3g} {}", steep, so)});
+    add(findings, "muscle_pressure", {i}, fmt::format("force follows muscle_pressure {:.3g} times", steep),
+        fmt::format(
+            " as steeply as this braid would: the pressure looks like {}, not {}; write columns: {{{}}}",
+            nearest.name, said->name, line_in_unit("muscle_pressure", place)));
   }
   return findings;
 }

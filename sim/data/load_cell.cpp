@@ -24,6 +24,25 @@ struct Cell {
   double off_N(double hangs_N) const { return zero_N + (factor - 1.0) * hangs_N; }
 };
 
+/// Where cell and labels agree but in one run: its label, which the cell knows better than the motion does.
+std::optional<Finding> label_off(const domain::Dataset& data, const std::string& key,
+                                 const std::vector<std::size_t>& runs, const std::vector<double>& read_N,
+                                 const std::vector<double>& hangs_N, double least_N) {
+  if (runs.size() < of_cells.least_labels) return std::nullopt;
+  std::vector<double> offs_N;
+  for (std::size_t k = 0; k < runs.size(); ++k) offs_N.push_back(std::abs(read_N[k] - hangs_N[k]));
+  const auto k = static_cast<std::size_t>(std::ranges::max_element(offs_N) - offs_N.begin());
+  const double most_N = std::exchange(offs_N[k], 0.0);
+  if (most_N < least_N || std::ranges::max(offs_N) > of_cells.same_zero * most_N) return std::nullopt;
+  return Finding{
+      .quantity = "load",
+      .runs = {runs[k]},
+      .message = fmt::format(
+          "{} reads {:.3g} N {} than hangs there, in no other run so: is load: {:.4g} kg meant?", key, most_N,
+          read_N[k] > hangs_N[k] ? "more" : "less", data.runs[runs[k]].load_kg * read_N[k] / hangs_N[k]),
+      .severity = Severity::doubtful};
+}
+
 }  // namespace
 
 std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vector<Compared>& runs,
@@ -49,9 +68,8 @@ std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vec
       most = std::max(most, std::abs(offs_N[k] / cell.off_N(hangs_N[k]) - 1.0));
     return most;
   };
-  const auto is_zero = [&](const Cell& cell) {
-    return std::abs(cell.zero_N) >= std::max(of_cells.zero_of_load_cell * most_N, sure_N);
-  };
+  const double least_zero_N = std::max(of_cells.zero_of_load_cell * most_N, sure_N);
+  const auto is_zero = [&](const Cell& cell) { return std::abs(cell.zero_N) >= least_zero_N; };
   const auto is_factor = [&](const Cell& cell) {
     return std::abs(cell.factor - 1.0) >= std::max(of_cells.gain_of_load_cell, sure_N / least_N);
   };
@@ -70,25 +88,10 @@ std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vec
                      middle_N < (1.0 - of_cells.zero_of_load_cell) * most_N;
   const bool by_both = !by_zero && !by_factor && several && three && is_zero(both) && is_factor(both) &&
                        worst(both) <= of_cells.same_zero;
-  if (!by_zero && !by_factor && !by_both) {
-    // Cell and labels agree but in one run: that label, which the cell knows better than the motion does.
-    const auto worst_first =
-        std::ranges::max_element(offs_N, {}, [](double off_N) { return std::abs(off_N); });
-    const auto k = static_cast<std::size_t>(worst_first - offs_N.begin());
-    const double off_N = *worst_first;
-    if (found.runs.size() != offs_N.size() || offs_N.size() < of_cells.least_labels || !is_zero({off_N}))
-      return std::nullopt;
-    for (std::size_t other = 0; other < offs_N.size(); ++other)
-      if (other != k && std::abs(offs_N[other]) > of_cells.same_zero * std::abs(off_N)) return std::nullopt;
-    const std::size_t run = found.runs[k];
-    return Finding{
-        .quantity = "load",
-        .runs = {run},
-        .message = fmt::format(
-            "{} reads {:.3g} N {} than hangs there, in no other run so: is load: {:.4g} kg meant?", key,
-            std::abs(off_N), off_N > 0.0 ? "more" : "less", data.runs[run].load_kg * read_N[k] / hangs_N[k]),
-        .severity = Severity::doubtful};
-  }
+  if (!by_zero && !by_factor && !by_both)
+    return found.runs.size() == offs_N.size()
+               ? label_off(data, key, found.runs, read_N, hangs_N, least_zero_N)
+               : std::nullopt;
   const Cell& cell = by_factor ? factor : by_zero ? zero : both;
   place.zero = domain::significant(place.zero + cell.zero_N / unit_N / place.factor, 3);
   place.factor = domain::significant(place.factor / cell.factor, 3);

@@ -21,13 +21,13 @@ namespace mckibben::identify {
 namespace {
 
 constexpr std::array<BenchNumber, 4> of_loads_and_clocks{
-    {{"load_label", "offset", &Bench::load_offset_kg, 1.0, -8.0, 12.0},
-     {"load_label", "factor", &Bench::load_factor, 0.05, -0.6, 1.0},
-     {"reading_clock", "rate", &Bench::clock, 0.01, -0.3, 0.3},
-     {"reading_clock", "offset", &Bench::ahead_s, 0.02, 0.0, 1.0}}};  // late readings are the rig's
-/// What a load cell reads with nothing on it, in N.
+    {{"load_label", "offset", "kg", &Bench::load_offset_kg, 1.0, -8.0, 12.0},
+     {"load_label", "factor", "1", &Bench::load_factor, 0.05, -0.6, 1.0},
+     {"reading_clock", "rate", "1", &Bench::clock, 0.01, -0.3, 0.3},
+     {"reading_clock", "offset", "s", &Bench::ahead_s, 0.02, 0.0, 1.0}}};  // late readings are the rig's
+/// What a load cell reads with nothing on it.
 constexpr std::array<BenchNumber, 1> of_load_cells{
-    {{"reading_zero", "offset", &Bench::zero, 5.0, -100.0, 100.0}}};
+    {{"reading_zero", "offset", "N", &Bench::zero, 5.0, -100.0, 100.0}}};
 
 /// A law with a term more, as one: the term's size is one of its shapes.
 std::optional<diagnose::Candidate> whole(const diagnose::Candidate& c,

@@ -68,7 +68,7 @@ struct Setting {
 
 /// A number of the bench that is the same in all runs.
 struct BenchNumber {
-  std::string_view name, variant;
+  std::string_view name, variant, unit;
   double Bench::*of;
   double typical, lowest, highest;
 };

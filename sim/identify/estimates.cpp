@@ -150,12 +150,8 @@ class Estimating {
     const auto size = [&](double z) { return entry.absent + entry.typical * z; };
     const double lowest = entry.either_sign ? entry.lowest : 0.0;
     if (entry.bench != nullptr) {
-      const std::string unit = entry.bench->of == &Bench::load_offset_kg ? "kg"
-                               : entry.bench->of == &Bench::ahead_s      ? "s"
-                               : entry.bench->of == &Bench::zero         ? "N"
-                                                                         : "1";
-      result_.bench.push_back(
-          number(std::string(entry.bench->variant), unit, of_size, lowest, entry.highest, size));
+      result_.bench.push_back(number(std::string(entry.bench->variant), std::string(entry.bench->unit),
+                                     of_size, lowest, entry.highest, size));
       return;
     }
     const diagnose::Candidate& effect = *entry.effect;

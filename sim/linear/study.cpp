@@ -19,9 +19,11 @@ Study study(const plant::Rig& rig, double load_kg, const Place& place, const Que
     return result.loops.emplace_back(name, open, margins_of(open));
   };
   // Also of a loop that a small swing's friction steadies: larger ones grow.
-  const auto calm = [&](Loop& loop, const controllers::PidForm& pid, const auto&... filter) {
-    if (!margins_of(loop_of(still, pid, rig.tick_s, filter...)).stable)
-      loop.calmed_m_per_s = calmed_m_per_s(still, pid, rig.tick_s, filter...);
+  const auto calm = [&](Loop& loop, const controllers::PidForm& pid,
+                        const controllers::CommandFilter* filter = nullptr) {
+    const bool stable = question.swing_m_per_s ? margins_of(loop_of(still, pid, rig.tick_s, filter)).stable
+                                               : loop.margins.stable;
+    if (!stable) loop.calmed_m_per_s = calmed_m_per_s(still, pid, rig.tick_s, filter);
   };
   for (const controllers::Settings& each : controllers) {
     if (!is_linear(each)) continue;
