@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string_view>
 #include <utility>
@@ -58,6 +59,7 @@ class Judging {
     raw_.filled_Pa = first_pressure_Pa(raw_);
     gap_s_ = median_gap_s(raw_);
     fast_ = is_fast(raw_, gap_s_, row_s_);
+    for (const MeasuredColumn& column : raw_.columns) noise_.push_back(noise_of_given(column));
     Measurement driving = fast_ ? thinned() : as_recorded();
     judge(driving);
     shake(driving);
@@ -103,7 +105,9 @@ class Judging {
   Measurement as_recorded() const {
     Measurement same = bare();
     same.time_s = raw_.time_s;
-    std::erase_if(same.columns = raw_.columns, [](const MeasuredColumn& column) { return !column.given; });
+    for (std::size_t at = 0; const Input& input : inputs())
+      for (MeasuredColumn& column = same.columns[at++]; const double at_s : raw_.time_s)
+        column.values.push_back(smooth(input, at_s));
     const bool each = !raw_.counted || raw_.gives_length();
     const double least_s = row_s_ - 0.5 * gap_s_;
     double last_s = begin_s() + raw_.recorded.skip_s - row_s_;
@@ -121,16 +125,22 @@ class Judging {
     const MeasuredColumn& of;
     Column column;
     double range;  ///< of its values
+    double noise;  ///< of a reading
   };
+
+  std::vector<Input> inputs() const {
+    std::vector<Input> list;
+    for (std::size_t i = 0; i < raw_.columns.size(); ++i)
+      if (const MeasuredColumn& column = raw_.columns[i]; column.given)
+        list.push_back({column, Column(raw_.time_s, column.values), range_of(column.values), noise_[i]});
+    return list;
+  }
 
   Measurement thinned() {
     Measurement thin = bare();
     if (std::ranges::any_of(thin.columns, &MeasuredColumn::is_command))
       thin.recorded.hold = domain::Hold::usual;  // means are held
-    std::vector<Input> inputs;
-    for (const MeasuredColumn& column : raw_.columns)
-      if (column.given)
-        inputs.push_back({column, Column(raw_.time_s, column.values), range_of(column.values)});
+    const std::vector<Input> inputs = this->inputs();
     const double quarter_s = row_s_ / static_cast<double>(quarters);
     const auto [rows, skipped] = EvenRows(raw_, row_s_);
     for (std::size_t j = 0; j <= rows * quarters; ++j) {
@@ -155,7 +165,7 @@ class Judging {
         const Column& column = inputs[i].column;
         thin.columns[i].values.push_back(
             inputs[i].of.is_command() ? column.mean(a_s, b_s, raw_.recorded.hold == domain::Hold::linear)
-                                      : smooth(inputs[i], a_s, uneven[i] || is_length(inputs[i].of)));
+                                      : smooth(inputs[i], a_s));
       }
     };
     double at_s = from_s;
@@ -185,12 +195,16 @@ class Judging {
            std::isnan(here.value);
   }
 
-  /// Of a given pressure or force: smoothed, unless it jumps; of a length as it is.
-  double smooth(const Input& of, double at_s, bool as_it_is) const {
-    const double raw = of.column.between(of.column.last_before(at_s), at_s);
-    if (as_it_is) return raw;
-    const double smooth = of.column.near(at_s, 0.5 * row_s_).value;
-    return std::isnan(smooth) ? raw : smooth;
+  double smooth(const Input& of, double at_s) const { return of.column.smooth(at_s, 2.0 * gap_s_, of.noise); }
+
+  /// Of a reading of a given pressure or force. Commands and lengths have none, and settled points.
+  double noise_of_given(const MeasuredColumn& given) const {
+    if (!given.given || given.is_command() || is_length(given) || raw_.point_s > 0.0) return 0.0;
+    if (!fast_) return slow_noise(raw_.time_s, given.values);
+    std::vector<double> left;
+    for (double at_s = begin_s() + 0.5 * row_s_; at_s < raw_.time_s.back(); at_s += row_s_)
+      left.push_back(Column(raw_.time_s, given.values).near(at_s, 0.5 * row_s_).squares);
+    return noise_of(left);
   }
 
   /// The reading that is judged, then what was read beside it, as they were recorded.
@@ -245,7 +259,7 @@ class Judging {
   }
 
   double noise_of_slow(const std::vector<double>& readings) const {
-    if (raw_.point_s == 0.0) return slow_noise(readings);
+    if (raw_.point_s == 0.0) return slow_noise(raw_.time_s, readings);
     std::vector<std::vector<double>> inputs;
     for (const MeasuredColumn& column : raw_.columns)
       if (column.given && !column.values.empty())
@@ -269,39 +283,26 @@ class Judging {
 
   /// As much noise as a given pressure or force has, once more on it.
   void shake(const Measurement& driving) {
-    if (driving.point_s > 0.0) return;  // a point's has come to rest
-    std::size_t at = 0;
-    for (MeasuredColumn& column : raw_.columns) {
-      if (!column.given) continue;
-      if (!column.is_command() && !is_length(column)) shake(driving, column, at);
-      ++at;
-    }
-  }
-  void shake(const Measurement& driving, MeasuredColumn& given, std::size_t at) {
-    auto& readings = given.values;
-    const Column column(raw_.time_s, readings);
-    std::vector<double> left;
-    if (fast_)
-      for (const std::size_t stamp : driving.rows)
-        left.push_back(column.near(driving.time_s[stamp], 0.5 * row_s_).squares);
-    const double level = fast_ ? noise_of(left) : slow_noise(readings);
-    if (given.channel.is_pressure()) given_noise_Pa = std::max(given_noise_Pa, level);
-    std::normal_distribution<double> noise(0.0, level);
-    for (double& reading : readings) reading += noise(random_);
-    if (!run_.shaken) run_.shaken = driving;
-    auto& shaken = run_.shaken->columns[at].values;
-    for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
-      const double at_s = driving.time_s[k];
-      const Together here = column.near(at_s, 0.5 * row_s_);
-      shaken[k] =
-          fast_ && !std::isnan(here.value) ? here.value : column.between(column.last_before(at_s), at_s);
+    if (std::ranges::any_of(noise_, [](double noise) { return noise > 0.0; })) run_.shaken = driving;
+    for (std::size_t i = 0, at = 0; i < raw_.columns.size(); ++i) {
+      MeasuredColumn& given = raw_.columns[i];
+      if (!given.given) continue;
+      std::vector<double>& values = run_.shaken->columns[at++].values;
+      if (!(noise_[i] > 0.0)) continue;
+      if (given.channel.is_pressure()) given_noise_Pa = std::max(given_noise_Pa, noise_[i]);
+      std::normal_distribution<double> noise(0.0, noise_[i]);
+      for (double& reading : given.values) reading += noise(random_);
+      const Column shaken(raw_.time_s, given.values);
+      for (std::size_t k = 0; k < values.size(); ++k)
+        values[k] = shaken.smooth(driving.time_s[k], 2.0 * gap_s_, std::numbers::sqrt2 * noise_[i]);
     }
   }
 
   domain::Run& run_;
   Measurement raw_;
-  bool angle_;                  // is judged
-  double row_s_, gap_s_ = 0.0;  ///< between rows; between stamps that are read
+  bool angle_;                   // is judged
+  double row_s_, gap_s_ = 0.0;   ///< between rows; between stamps that are read
+  std::vector<double> noise_{};  // of a reading of each column that is given
   std::mt19937_64 random_;
   bool fast_ = false;
 };
@@ -375,7 +376,6 @@ domain::Dataset with_rows(domain::Dataset data) {
     for (const auto& [signal, more] : judging.squares_beside) add(squares_beside[signal], more);
     rows.given_noise_Pa = std::max(rows.given_noise_Pa, judging.given_noise_Pa);
     rows.step = std::max(rows.step, judging.step);
-    rows.smoothed = rows.smoothed || (judging.fast() && run.shaken);
   }
   const double all = static_cast<double>(std::max<std::size_t>(rows.rows, 1));
   rows.readings /= all;

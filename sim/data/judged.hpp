@@ -2,9 +2,10 @@
 //
 // Where readings come fast, there is a row each 12 ms: a parabola through the readings within half a row
 // (least squares; Savitzky & Golay, Analytical Chemistry 36 (1964) 1627-1639) tells what they say together at
-// its instant, and what they scatter by. The simulation follows the inputs in quarters of that: a command at
-// its mean, a given pressure smoothed alike. Where an input jumps or bends in between, every stamp is kept.
-// Where readings come slowly, rows are the stamps, and nothing is smoothed; of settled points each is a row.
+// its instant, and what they scatter by. The simulation follows the inputs in quarters of that, a command at
+// its mean. Where an input jumps or bends in between, every stamp is kept.
+// Where readings come slowly, rows are the stamps, and readings stay as they are; of settled points each is a
+// row. A given pressure or force is smoothed as far as its noise allows: hysteresis would go the noise's ways.
 #pragma once
 
 #include <cstddef>

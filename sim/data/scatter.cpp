@@ -15,6 +15,9 @@ namespace {
 constexpr double normal_median = 0.6745;  // of the size of a normal variable. Derived
 constexpr double first_moments_s = 0.04;  // what a load does in them is a parabola
 constexpr std::size_t least_readings = 4;
+constexpr double agrees = 2.0;    // deviations. A convention: 95 %
+constexpr double wider = 1.5;     // than the parabola before
+constexpr double widest_s = 0.1;  // half of a parabola: by then a muscle's pressure has moved on
 constexpr double steps_that_are_whole = 0.95, whole = 0.05;
 
 /// Value, slope and curvature at the first stamp, of what is read in the first moments.
@@ -70,6 +73,21 @@ Together Column::near(double at_s, double half_s) const {
   return result;
 }
 
+double Column::smooth(double at_s, double half_s, double noise) const {
+  double value = between(last_before(at_s), at_s);
+  double low = value - agrees * noise, high = value + agrees * noise;
+  for (; noise > 0.0 && half_s <= widest_s; half_s *= wider) {
+    const Together wide = near(at_s, half_s);
+    if (std::isnan(wide.value)) continue;
+    const double off = agrees * noise * std::sqrt(wide.gain);
+    low = std::max(low, wide.value - off);
+    high = std::min(high, wide.value + off);
+    if (low > high) break;
+    value = wide.value;
+  }
+  return value;
+}
+
 double Column::mean(double from_s, double to_s, bool linear) const {
   auto k =
       static_cast<std::size_t>(std::upper_bound(time_s_.begin(), time_s_.end(), from_s) - time_s_.begin());
@@ -92,38 +110,61 @@ double noise_of(const std::vector<double>& squares) {
   return squares.empty() ? 0.0 : std::sqrt(upper_median(squares));
 }
 
-double slow_noise(std::vector<double> v) {
-  std::vector<double> fourth;
-  for (std::size_t k = 4; k < v.size(); ++k)
-    if (const double d = v[k] - 4.0 * v[k - 1] + 6.0 * v[k - 2] - 4.0 * v[k - 3] + v[k - 4]; !std::isnan(d))
-      fourth.push_back(std::abs(d));
-  if (fourth.empty() && std::erase_if(v, [](double value) { return std::isnan(value); }) > 0)
-    return slow_noise(std::move(v));
-  return fourth.empty() ? 0.0 : upper_median(std::move(fourth)) / normal_median / std::sqrt(70.0);
+namespace {
+
+/// What a value is off the polynomial through the others, for a deviation of 1 of each: a divided difference.
+double off(std::span<const double> at, std::span<const double> values) {
+  const auto [low, high] = std::ranges::minmax(at);
+  double difference = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    double weight = 1.0;
+    for (std::size_t j = 0; j < at.size(); ++j)
+      if (j != i) weight *= (high - low) / (at[i] - at[j]);
+    difference += weight * values[i];
+    squares += weight * weight;
+  }
+  return std::abs(difference) / std::sqrt(squares);
+}
+
+/// The median is blind to jumps.
+double deviation(std::vector<double> off) {
+  std::erase_if(off, [](double one) { return std::isnan(one); });
+  return off.empty() ? 0.0 : upper_median(std::move(off)) / normal_median;
+}
+
+}  // namespace
+
+double slow_noise(std::vector<double> time_s, std::vector<double> values) {
+  constexpr std::size_t five = 5;
+  const auto noise = [&] {
+    std::vector<double> of;
+    for (std::size_t k = five; k <= values.size(); ++k)
+      of.push_back(off({&time_s[k - five], five}, {&values[k - five], five}));
+    return deviation(std::move(of));
+  };
+  if (const double together = noise(); together > 0.0) return together;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (std::isnan(values[k])) time_s[k] = std::nan("");
+  std::erase_if(time_s, [](double one) { return std::isnan(one); });
+  std::erase_if(values, [](double one) { return std::isnan(one); });
+  return noise();
 }
 
 double points_noise(const std::vector<double>& read, const std::vector<std::vector<double>>& inputs) {
-  std::vector<double> off;
-  for (std::size_t k = 3; k < read.size(); ++k) {
+  constexpr std::size_t four = 4;
+  std::vector<double> of;
+  for (std::size_t k = four; k <= read.size(); ++k) {
     const auto way = [&](const std::vector<double>& input) {
-      const std::span<const double> at(&input[k - 3], 4);
+      const std::span<const double> at(&input[k - four], four);
       const bool one_way = std::ranges::is_sorted(at, std::less_equal<>{}) ||
                            std::ranges::is_sorted(at, std::greater_equal<>{});
-      return one_way ? std::abs(at[3] - at[0]) / range_of(input) : 0.0;
+      return one_way ? std::abs(at.back() - at.front()) / range_of(input) : 0.0;
     };
     const auto moving = std::ranges::max_element(inputs, {}, way);
-    if (moving == inputs.end() || !(way(*moving) > 0.0)) continue;
-    double difference = 0.0, squares = 0.0;
-    for (std::size_t i = k - 3; i <= k; ++i) {
-      double weight = 1.0;  // of a divided difference
-      for (std::size_t j = k - 3; j <= k; ++j)
-        if (j != i) weight *= range_of(*moving) / ((*moving)[i] - (*moving)[j]);
-      difference += weight * read[i];
-      squares += weight * weight;
-    }
-    if (!std::isnan(difference)) off.push_back(std::abs(difference) / std::sqrt(squares));
+    if (moving != inputs.end() && way(*moving) > 0.0)
+      of.push_back(off({&(*moving)[k - four], four}, {&read[k - four], four}));
   }
-  return off.empty() ? 0.0 : upper_median(std::move(off)) / normal_median;
+  return deviation(std::move(of));
 }
 
 double step_of(const std::vector<double>& values) {

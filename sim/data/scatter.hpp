@@ -31,6 +31,11 @@ class Column {
   /// A parabola through those within `half_s`; of fewer than four no value.
   Together near(double at_s, double half_s) const;
 
+  /// What readings with white noise of a deviation say at an instant: of parabolas through ever more of them,
+  /// from those within `half_s` on, the widest that agrees with the reading and with all narrower ones
+  /// (Goldenshluger & Nemirovski, Mathematical Methods of Statistics 6 (1997) 135-170).
+  double smooth(double at_s, double half_s, double noise) const;
+
   /// The last value at an instant, and what it is on average until another: held or straight from stamp to
   /// stamp.
   double mean(double from_s, double to_s, bool linear) const;
@@ -64,9 +69,9 @@ double range_of(const std::vector<double>& values);
 /// Noise of single readings from what is left of parabolas; the median is blind to jumps.
 double noise_of(const std::vector<double>& squares);
 
-/// White noise of readings that come slowly, from their fourth differences; of those that are there, where
-/// never five are together.
-double slow_noise(std::vector<double> values);
+/// White noise of readings that come slowly, from their fourth differences, divided by their stamps'; of those
+/// that are there, where never five are together.
+double slow_noise(std::vector<double> time_s, std::vector<double> values);
 
 /// Noise of settled points: what the last of four that go one way is off the parabola through the others,
 /// over the input that moves most. The median is blind to where they turn.

@@ -56,11 +56,12 @@ std::vector<std::string> rows_in_words(const domain::Dataset& data, const NoiseF
         rows.readings < 2.0 ? "" : fmt::format(", each of {:.0f} readings on average", rows.readings),
         rows.inputs));
   if (rows.given_noise_Pa > 0.0)
-    words.push_back(fmt::format(
-        "the noise of the given pressure, {:.2g} mbar, {}; what it does to the {}, {}, counts in the noise "
-        "floor",
-        1e-2 * rows.given_noise_Pa, rows.smoothed ? "was smoothed" : "was left as it is",
-        plant::name_of(data.judged()), data::amount_of(data.judged(), floor.given, data.rig)));
+    words.push_back(
+        fmt::format("the noise of the given pressure, {:.2g} mbar, was smoothed; what is left of it in the "
+                    "{}, {}, counts in "
+                    "the noise floor",
+                    1e-2 * rows.given_noise_Pa, plant::name_of(data.judged()),
+                    data::amount_of(data.judged(), floor.given, data.rig)));
   if (rows.slack > 0)
     words.push_back(
         fmt::format("{} readings of force are 0, a slack cord: they do not show how far the muscle is from "

@@ -118,7 +118,6 @@ struct Rows {
   std::map<std::string_view, double> noise_beside{};  ///< the same of other signals, by their keys
   double step = 0.0;                                  ///< that the readings are rounded to
   double given_noise_Pa = 0.0;                        ///< of a reading of a pressure that is given
-  bool smoothed = false;                              ///< that pressure was
   std::size_t slack = 0;       ///< readings of force that are none: the cord hung through
   std::size_t at_the_end = 0;  ///< and those at the end of the load cell's range
 

@@ -202,7 +202,7 @@ Json rows_json(const domain::Rows& rows) {
           {"readings_of_a_row", rows.readings},
           {"input_stamps", rows.inputs},
           {"given_pressure_noise_bar", rows.given_noise_Pa / plant::Pa_per_bar},
-          {"given_pressure", rows.smoothed ? "smoothed" : "as recorded"}};
+          {"given_pressure", rows.given_noise_Pa > 0.0 ? "smoothed" : "as recorded"}};
 }
 
 Json search_json(const diagnose::Diagnosis& diagnosis) {
