@@ -275,6 +275,7 @@ void Search::go_on() {
   last.evidence();
   enter(last);
   take(std::move(last));
+  drop_what_may_be_nothing();
   try_simpler_laws();
   stage_ = 2;
   describe_bench();

@@ -352,6 +352,18 @@ void Search::try_rivals(const Model& base, const std::vector<Start>& starts, con
   }
 }
 
+/// What may be of no size goes if the rest does as well from where it stands: any other beginning may be in
+/// another valley.
+void Search::drop_what_may_be_nothing() {
+  for (bool dropped = true; std::exchange(dropped, false);)
+    for (const std::size_t i : here_->may_be_nothing()) {
+      Model without(problem_, here_->point.without(i), here_->error, here_->term_N);
+      without.far = false;
+      without.look();
+      if ((dropped = take(refined(std::move(without))))) break;
+    }
+}
+
 /// Is each needed? Without it, from these parameters and, where they are bent, from the rig as described.
 void Search::prune() {
   for (bool pruned = true; pruned && dictionary_.names(here_->point).size() > 1;) {

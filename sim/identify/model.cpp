@@ -46,6 +46,17 @@ bool Model::has_effects() const {
   });
 }
 
+std::vector<std::size_t> Model::may_be_nothing() const {
+  std::vector<std::size_t> places;
+  const auto coordinates = problem->dictionary.coordinates(point);
+  const Eigen::VectorXd v = problem->dictionary.vector(point);
+  for (Index j = 0; j < std::min(v.size(), covariance.rows()); ++j)
+    if (const auto& [kind, of, which] = coordinates[static_cast<std::size_t>(j)];
+        kind == Kind::size && std::abs(v[j]) <= decisive.errors * std::sqrt(covariance(j, j)))
+      places.push_back(of);
+  return places;
+}
+
 double Model::left() const {
   return problem->rows.rms(residual()) / problem->rows.unit;
 }

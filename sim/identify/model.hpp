@@ -61,6 +61,8 @@ class Model {
   double off_sheet() const { return point.z.size() > 0 ? point.z.cwiseAbs().maxCoeff() : 0.0; }
   /// Effects of the rig, not only faults of the bench.
   bool has_effects() const;
+  /// Places of the effects whose size is within its interval of nothing.
+  std::vector<std::size_t> may_be_nothing() const;
   /// Variances of the priors, of the normals that touch them.
   Eigen::VectorXd variance() const;
   double log_prior() const;

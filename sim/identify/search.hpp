@@ -109,6 +109,7 @@ class Search {
   std::vector<Probe> still_worth(const Model& base, const std::vector<Part>& parts) const;
   bool look_from(Model base, bool far, bool first);
   void prune();
+  void drop_what_may_be_nothing();
   std::vector<Start> of_other_sides(const Model& base, const Part& part) const;
   void try_rivals(const Model& base, const std::vector<Start>& starts, const Part& part);
   using Instead = std::function<std::vector<Point>(const Added& found, std::size_t entry, Point rest)>;

@@ -31,6 +31,27 @@ TEST(Identify, NamesTheLeak) {
   EXPECT_LT(found.chosen().left(), 0.4);  // counts; rounding alone leaves 0.29
 }
 
+// Beside a leak an effect that the data do not have is of no size; without it the rest stands.
+TEST(Identify, AnEffectOfNoSizeIsSeenAsOne) {
+  const Study study(diagnose::small(leaky()), {.threads = 2});
+  const Dictionary& dictionary = study.dictionary;
+  const auto begun = [&](std::string_view name, double size) {
+    const auto entry = std::ranges::find(dictionary.entries, name, &Entry::name);
+    return dictionary.clipped({static_cast<std::size_t>(entry - dictionary.entries.begin()), size,
+                               entry->begin.empty() ? std::vector<double>{} : entry->begin.front()});
+  };
+  const Error error(study.rows, study.simulator.wander(dictionary.setting(dictionary.described())));
+  Model model(study.problem,
+              dictionary.nominal().with(begun("muscle_leak", 0.5)).with(begun("friction_warm_up", 0.1)),
+              error);
+  model.look();
+  model.settle({});
+  model.evidence();
+  const auto places = model.may_be_nothing();
+  ASSERT_EQ(places.size(), 1u);
+  EXPECT_EQ(dictionary.entries[model.point.effects[places.front()].entry].name, "friction_warm_up");
+}
+
 TEST(Identify, NamesNothingWhereNothingIsMissing) {
   const Identified found = identify(diagnose::small({}), {.threads = 2});
   EXPECT_EQ(found.decision.verdict, Verdict::nothing_missing);
