@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <sim/data/finding.hpp>
+#include <sim/data/given_noise.hpp>
 #include <sim/data/judged.hpp>
 #include <sim/data/scatter.hpp>
 #include <sim/data/series.hpp>
@@ -59,7 +60,8 @@ class Judging {
     raw_.filled_Pa = first_pressure_Pa(raw_);
     gap_s_ = median_gap_s(raw_);
     fast_ = is_fast(raw_, gap_s_, row_s_);
-    for (const MeasuredColumn& column : raw_.columns) noise_.push_back(noise_of_given(column));
+    for (const MeasuredColumn& column : raw_.columns)
+      noise_.push_back(noise_of_given(raw_, column, fast_ ? row_s_ : 0.0));
     Measurement driving = fast_ ? thinned() : as_recorded();
     judge(driving);
     shake(driving);
@@ -151,8 +153,6 @@ class Judging {
     return thin;
   }
 
-  static bool is_length(const MeasuredColumn& column) { return column.channel.is("contraction"); }
-
   /// Adds the inputs of a quarter, at every stamp where one of them jumps or bends.
   void follow(Measurement& thin, const std::vector<Input>& inputs, double from_s, double to_s) const {
     std::vector<bool> uneven;
@@ -162,10 +162,12 @@ class Judging {
     const auto put = [&](double a_s, double b_s) {
       thin.time_s.push_back(a_s);
       for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const Column& column = inputs[i].column;
-        thin.columns[i].values.push_back(
-            inputs[i].of.is_command() ? column.mean(a_s, b_s, raw_.recorded.hold == domain::Hold::linear)
-                                      : smooth(inputs[i], a_s));
+        const Input& input = inputs[i];
+        const bool linear = raw_.recorded.hold == domain::Hold::linear;
+        thin.columns[i].values.push_back(!input.of.is_command() ? smooth(input, a_s)
+                                         : input.noise > 0.0 && !uneven[i]
+                                             ? smooth(input, 0.5 * (a_s + b_s - (linear ? 0.0 : gap_s_)))
+                                             : input.column.mean(a_s, b_s, linear));
       }
     };
     double at_s = from_s;
@@ -186,7 +188,7 @@ class Judging {
       bend = std::max(bend, std::abs(column[k] - std::lerp(column[first], column[last], share)));
       if (k > first) bend = std::max(bend, 0.5 * std::abs(column[k] - column[k - 1]));
     }
-    return bend > straight * of.range;
+    return bend > std::max(straight * of.range, outlying * of.noise);
   }
 
   bool jumps(const Input& of, double at_s) const {
@@ -196,16 +198,6 @@ class Judging {
   }
 
   double smooth(const Input& of, double at_s) const { return of.column.smooth(at_s, 2.0 * gap_s_, of.noise); }
-
-  /// Of a reading of a given pressure or force. Commands and lengths have none, and settled points.
-  double noise_of_given(const MeasuredColumn& given) const {
-    if (!given.given || given.is_command() || is_length(given) || raw_.point_s > 0.0) return 0.0;
-    if (!fast_) return slow_noise(raw_.time_s, given.values);
-    std::vector<double> left;
-    for (double at_s = begin_s() + 0.5 * row_s_; at_s < raw_.time_s.back(); at_s += row_s_)
-      left.push_back(Column(raw_.time_s, given.values).near(at_s, 0.5 * row_s_).squares);
-    return noise_of(left);
-  }
 
   /// The reading that is judged, then what was read beside it, as they were recorded.
   std::vector<const MeasuredColumn*> columns() const {
@@ -281,20 +273,24 @@ class Judging {
     }
   }
 
-  /// As much noise as a given pressure or force has, once more on it.
+  /// As much noise as what is given has, once more on it.
   void shake(const Measurement& driving) {
-    if (std::ranges::any_of(noise_, [](double noise) { return noise > 0.0; })) run_.shaken = driving;
-    for (std::size_t i = 0, at = 0; i < raw_.columns.size(); ++i) {
-      MeasuredColumn& given = raw_.columns[i];
-      if (!given.given) continue;
+    if (std::ranges::none_of(noise_, [](double noise) { return noise > 0.0; })) return;
+    run_.shaken = driving;
+    std::size_t at = 0;
+    for (const Input& input : inputs()) {
       std::vector<double>& values = run_.shaken->columns[at++].values;
-      if (!(noise_[i] > 0.0)) continue;
-      if (given.channel.is_pressure()) given_noise_Pa = std::max(given_noise_Pa, noise_[i]);
-      std::normal_distribution<double> noise(0.0, noise_[i]);
-      for (double& reading : given.values) reading += noise(random_);
-      const Column shaken(raw_.time_s, given.values);
-      for (std::size_t k = 0; k < values.size(); ++k)
-        values[k] = shaken.smooth(driving.time_s[k], 2.0 * gap_s_, std::numbers::sqrt2 * noise_[i]);
+      if (!(input.noise > 0.0)) continue;
+      if (input.of.channel.is_pressure()) given_noise_Pa = std::max(given_noise_Pa, input.noise);
+      std::vector<double> readings = input.of.values;
+      std::normal_distribution<double> noise(0.0, input.noise);
+      for (double& reading : readings) reading += noise(random_);
+      const Column shaken(raw_.time_s, readings);
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const double at_s = driving.time_s[k];
+        values[k] +=
+            shaken.smooth(at_s, 2.0 * gap_s_, std::numbers::sqrt2 * input.noise) - smooth(input, at_s);
+      }
     }
   }
 

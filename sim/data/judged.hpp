@@ -5,7 +5,7 @@
 // its instant, and what they scatter by. The simulation follows the inputs in quarters of that, a command at
 // its mean. Where an input jumps or bends in between, every stamp is kept.
 // Where readings come slowly, rows are the stamps, and readings stay as they are; of settled points each is a
-// row. A given pressure or force is smoothed as far as its noise allows: hysteresis would go the noise's ways.
+// row. What is given is smoothed as far as its noise allows (given_noise.hpp).
 #pragma once
 
 #include <cstddef>

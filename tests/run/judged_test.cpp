@@ -132,6 +132,33 @@ TEST(Judged, AGivenPressureIsSmoothed) {
   }
 }
 
+// A command that was measured, by an ADC: it drives smoothly. One that was written down is what was sent.
+TEST(Judged, ANoisyCommandIsSmoothed) {
+  for (const double per_s : {1000.0, 100.0})
+    for (const double noise_mA : {0.0, 0.01}) {
+      domain::Dataset data = recorded(per_s, false);
+      domain::Measurement& measured = *data.runs[0].measured;
+      std::mt19937_64 random(7);
+      std::normal_distribution<double> normal;
+      for (double& command_mA : measured.give("command")) command_mA += noise_mA * normal(random);
+      const std::vector<double> recorded_mA = measured.given("command");
+      const domain::Run run = with_rows(std::move(data)).runs[0];
+      const domain::Measurement& driving = *run.measured;
+      EXPECT_EQ(run.shaken.has_value(), noise_mA > 0.0);
+      if (noise_mA == 0.0 && per_s == 100.0) {
+        EXPECT_EQ(driving.given("command"), recorded_mA);
+      }
+      double squares = 0.0, count = 0.0;
+      for (std::size_t k = 0; k < driving.time_s.size(); ++k) {
+        const double at_s = driving.time_s[k];
+        if (std::abs(at_s - 8.0) < 0.05) continue;  // there it jumps
+        squares += std::pow(driving.given("command")[k] - (at_s < 8.0 ? 6.0 + at_s : 18.0), 2);
+        count += 1.0;
+      }
+      EXPECT_LT(std::sqrt(squares / count), noise_mA > 0.0 ? 0.5 * noise_mA : 2e-3) << per_s;
+    }
+}
+
 // A valve's pressure may jump: smoothing would be a ramp that no valve made.
 TEST(Judged, AJumpOfAGivenPressureIsLeft) {
   domain::Dataset data = recorded(100.0, true);
