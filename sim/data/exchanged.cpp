@@ -81,7 +81,7 @@ std::optional<Finding> of_the_other_muscle(const domain::Dataset& data, const st
 std::vector<Finding> exchanged(const domain::Dataset& data, const std::vector<Expected>& expected) {
   const domain::ColumnMap map =
       with_our_names(domain::merged(data.columns, data.runs.front().columns), data.rig.command_unit());
-  std::vector<Finding> findings;
+  std::vector<Finding> findings = exchanged_with_a_load_cell(data, expected);
   if (auto found = current_and_pressure(data, map)) findings.push_back(std::move(*found));
   for (const domain::Reading& read : data.runs.front().readings)
     if (read.channel.muscle == 1)

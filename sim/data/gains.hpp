@@ -72,11 +72,20 @@ std::optional<Finding> other_span(const std::vector<Compared>& runs, const std::
 /// to it. `accuracy_Pa`: rms.
 std::optional<Finding> other_zero_of_gauge(const std::vector<Compared>& runs, const std::string& key,
                                            domain::ColumnPlace place, double accuracy_Pa);
-/// A load cell that reads the same too much or too little whatever hangs, by the same factor, or both; or one
-/// load that is not what its label says, by the cell. `runs`: of each alone; `unit_N`: of the column.
-std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vector<Compared>& runs,
-                                     const std::string& key, domain::ColumnPlace place, double unit_N,
-                                     double accuracy_N);
+/// A load cell that reads the same too much or too little whatever hangs, by the same factor, or both; or in
+/// one run: its zero there, or the label. `runs`: of each alone; `unit_N`: of the column.
+std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vector<Expected>& expected,
+                                     const std::vector<Compared>& runs, const std::string& key,
+                                     domain::ColumnPlace place, double unit_N, double accuracy_N);
+/// Runs whose load cell does not read what hangs there, beside others whose does: it would in the unit or
+/// with the zero of the others, or in another unit;
+std::vector<Finding> load_cell_read_otherwise(const domain::Dataset& data,
+                                              const std::vector<Expected>& expected,
+                                              const std::vector<Compared>& runs, const std::string& key,
+                                              double accuracy_N);
+/// or the column of another reading would.
+std::vector<Finding> exchanged_with_a_load_cell(const domain::Dataset& data,
+                                                const std::vector<Expected>& expected);
 /// A pressure that is given to a muscle at given lengths, in a larger unit than is said, by its force.
 std::vector<Finding> pressures_of_a_held_muscle(const domain::Dataset& data);
 /// Whether a gauge may read so many times what the rig would do.

@@ -302,8 +302,12 @@ std::optional<double> size_in_ours(const domain::Run& run, const plant::Channel&
                                    std::string_view unit) {
   if (channel.is("contraction")) return run.ratio_per_unit;
   if (channel.is_pressure()) return size_Pa(unit);
-  constexpr std::array<std::pair<std::string_view, double>, 5> sizes{
-      {{"N", 1.0}, {"kN", 1e3}, {"kgf", plant::gravity_m_per_s2}, {"rad", 1.0}, {"deg", plant::degree_rad}}};
+  constexpr std::array<std::pair<std::string_view, double>, 6> sizes{{{"N", 1.0},
+                                                                      {"kN", 1e3},
+                                                                      {"kgf", plant::gravity_m_per_s2},
+                                                                      {"lbf", 4.448222},
+                                                                      {"rad", 1.0},
+                                                                      {"deg", plant::degree_rad}}};
   for (const auto& [name, size] : sizes)
     if (unit == name) return size;
   return unit == channel.signal->unit.name ? std::optional(1.0) : std::nullopt;

@@ -56,7 +56,8 @@ struct ColumnThresholds {
   double gain_of_load_cell = 0.05;  ///< nor by so much of each: a guide's friction is a few hundredths
   double held_steepness = 1.5;      ///< of a braid as described: units of pressure are further apart
   std::size_t least_labels = 3;     ///< one of them contradicts the others
-  double other_load = 1.5;          ///< times the lightest: a load that tells a zero from a factor
+  double speaks_for = 0.5;  ///< of what the motion is off by with one of label and cell, with the other
+  double other_load = 1.5;  ///< times the lightest: a load that tells a zero from a factor
 };
 
 /// Columns that are tried in each other's place.

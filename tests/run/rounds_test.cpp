@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <controllers/waveform.hpp>
 #include <sim/run/rounds.hpp>
 
 namespace mckibben::run {
