@@ -12,6 +12,10 @@ namespace mckibben::data {
 void check_columns(const domain::Dataset& data, const std::vector<Expected>& expected,
                    std::vector<Finding>& findings);
 
+/// Gauges that read more than their supply has. Adds to `findings`, first.
+void check_supply(const domain::Dataset& data, const std::vector<Expected>& expected,
+                  std::vector<Finding>& findings);
+
 /// All loads in another unit; a label that is wrong; labels that runs have of each other. Adds to `findings`.
 void check_loads(const domain::Dataset& data, const std::vector<Expected>& expected,
                  std::vector<Finding>& findings);

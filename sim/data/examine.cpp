@@ -308,6 +308,7 @@ Examined examine(const domain::Dataset& data, const std::vector<Expected>& expec
                                                          : run.judged().missing);
   result.left_out.assign(data.runs.size(), false);
   check_columns(data, expected, result.findings);
+  check_supply(data, expected, result.findings);
   if (!result.findings.empty()) return result;  // the wrong numbers would weigh wrong
   if (data.judged() == domain::Judged::contraction) check_loads(data, expected, result.findings);
   if (auto found = begins_moving(data, expected)) result.findings.push_back(std::move(*found));

@@ -19,6 +19,13 @@ inline double mean(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
+/// What such a share of them, for noise, is above.
+inline double upper_share(std::vector<double> values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>((1.0 - share) * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
 /// The middle value; the larger of the middle two, if they are two.
 inline double upper_median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

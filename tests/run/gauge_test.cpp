@@ -1,4 +1,7 @@
 // What is said of a gauge that reads many times, or a part of, what the rig would do.
+#include <algorithm>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include <sim/data/gains.hpp>
@@ -31,6 +34,27 @@ TEST(Gauge, AFactorIsToldOnlyIfAllRunsAgreeOnIt) {
   EXPECT_TRUE(lacks(span, "zero", "load", "contraction"));
   EXPECT_TRUE(lacks(told(0.6, 0.7), "span_pressure"));
   EXPECT_TRUE(lacks(told(0.95, 0.95), "span_pressure")) << "gauges do so";
+}
+
+TEST(Gauge, MoreThanTheSupplyHasIsToldFirst) {
+  const auto told = [](double factor, std::size_t runs, bool follows) {
+    auto data = sound();
+    data.columns["muscle_pressure"] = {"p", "bar"};
+    for (std::size_t run = 0; run < runs; ++run) {
+      auto& values = data.runs[run].find("muscle_pressure")->values;
+      if (!follows) std::ranges::reverse(values);
+      for (double& pressure_Pa : values) pressure_Pa *= factor;
+    }
+    return said(data);
+  };
+  for (const auto& [runs, who] : {std::pair<std::size_t, const char*>{6, "all runs"}, {1, "run r01"}})
+    for (const bool follows : {true, false})
+      EXPECT_TRUE(holds(told(14.5, runs, follows).front(), "error: ", who, "muscle_pressure is up to ",
+                        "write columns: {muscle_pressure: {column: p, unit: psi, factor: 1}}"));
+  EXPECT_TRUE(holds(told(3.0, 1, true).front(), "warning: run r01: muscle_pressure is up to ",
+                    " bar, and the rig's supply has 6 bar: are unit, zero and factor of its gauge right",
+                    "or set valve.supply_pressure of the rig"));
+  for (const std::string& one : told(1.1, 6, true)) EXPECT_TRUE(lacks(one, "supply has"));
 }
 
 TEST(Gauge, AUnitThatTheHeadingSaysIsDoubtedOnlyWhereAnotherFits) {
