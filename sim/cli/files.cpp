@@ -67,7 +67,7 @@ Looked read_measured(const std::filesystem::path& path, std::vector<Problem>& wa
   Looked looked{fmt::format("{} of {} runs simulated: stroke, sign, units, order of loads", look.runs,
                             data.runs.size())};
   std::erase_if(look.findings, [&](const data::Finding& one) {
-    if (data::only_limits_diagnosis(one)) looked.diagnose.push_back(one.message);
+    if (data::only_limits_diagnosis(one)) looked.diagnose.push_back(data::text_of(data, one));
     return data::only_limits_diagnosis(one);
   });
   say(look.findings);

@@ -10,6 +10,7 @@
 #include <sim/data/amount.hpp>
 #include <sim/data/columns.hpp>
 #include <sim/data/examine.hpp>
+#include <sim/data/lost_rows.hpp>
 #include <sim/data/odd_readings.hpp>
 #include <sim/data/parts.hpp>
 #include <sim/data/plausible.hpp>
@@ -193,7 +194,10 @@ class Readings {
     if (result_.left_out[i]) return;
     const auto lost = std::count(masked.begin(), masked.end(), true) - absent;
     const auto read = static_cast<std::ptrdiff_t>(masked.size()) - absent;
-    if (const auto row = lost_counts(values, sharpest, with_gaps(i, masked), count, data_.row_s()))
+    if (const auto rows = after_lost_rows(data_.runs[i], data_.rig.tick_s); !rows.empty()) {
+      leave_out(i, fmt::format("rows are missing before {:.3f} s", time_s(rows.front())));
+      result_.findings.back().told = true;
+    } else if (const auto row = lost_counts(values, sharpest, with_gaps(i, masked), count, data_.row_s()))
       leave_out(i, lost_in_words(i, values[*row] - values[*row - 1], time_s(*row)));
     else if (static_cast<double>(lost) > of_readings.most_masked * static_cast<double>(read) || read == 0)
       leave_out(i, "too little of it is left");

@@ -64,8 +64,8 @@ std::string_view consequence_of(const Finding& finding) {
 }
 
 bool only_limits_diagnosis(const Finding& finding) {
-  return finding.severity == Severity::unusable || finding.severity == Severity::undecidable ||
-         finding.severity == Severity::limited;
+  return finding.told || finding.severity == Severity::unusable ||
+         finding.severity == Severity::undecidable || finding.severity == Severity::limited;
 }
 
 std::vector<Finding> with_runs_named(const domain::Dataset& data, std::vector<Finding> findings) {

@@ -37,6 +37,7 @@ struct Finding {
   std::string message;              ///< what is wrong, and what to write instead
   Severity severity = Severity::refused;
   std::string kind{};                    ///< as in diagnosis.json: frozen, saturated, reading
+  bool told = false;                     ///< before anything was simulated: what follows from it is new
   std::vector<SeemingLoad> exchanged{};  ///< loads that have each other's labels, and what they should be
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include <sim/data/amount.hpp>
 #include <sim/data/clocks.hpp>
+#include <sim/data/lost_rows.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
 #include <sim/data/rounded.hpp>
@@ -67,6 +69,7 @@ class Plausible {
     }
     absolute();
     same_rows();
+    std::ranges::move(lost_rows(data_), std::back_inserter(found_));
     return std::move(found_);
   }
 

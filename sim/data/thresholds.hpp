@@ -138,6 +138,16 @@ struct ClockThresholds {
   double near_unit = 4.0;  ///< of 1e3 or 1e6: rows of two runs are apart by a unit
 };
 
+/// Rows that are missing though the stamps go on.
+struct LostRowThresholds {
+  double slowest_row_s = 0.025;  ///< in slower rows a quick valve gets anywhere, and a small muscle with it
+  double gap_rows = 2.5;         ///< the stamps tell it themselves
+  std::size_t beside = 4;        ///< rows before and after,
+  double stands_out = 3.0;       ///< times what they range over: a jump
+  double grains = 3.0, noises = 6.0;  ///< steps that it is rounded to; of its scatter
+  std::size_t most = 3;               ///< in a run: more are how it was recorded
+};
+
 /// What is asked about before anything is simulated.
 struct PlausibleThresholds {
   std::size_t least_rows = 10;
@@ -171,6 +181,7 @@ struct StartThresholds {
 struct Thresholds {
   ClockThresholds clock{};
   PlausibleThresholds plausible{};
+  LostRowThresholds lost_rows{};
   StartThresholds start{};
   LookThresholds look{};
   ColumnThresholds column{};
