@@ -101,8 +101,9 @@ struct Together {
 };
 Together together(const std::vector<const Values*>& drive, const std::vector<const Values*>& reading);
 
-/// The step that readings of a length come in, in their unit; 0 if in none, or if they are no length.
-double step_of_lengths(const ColumnGuess& contraction, const std::vector<UnknownTable>& tables);
+/// The step that readings come in, in their unit, if that is one of `unit`; 0 if in none, or if they are
+/// given.
+double step_of(const ColumnGuess& guess, std::string_view unit, const std::vector<UnknownTable>& tables);
 
 /// Whether the first 5 rows of a run, or of a long one the first 200th, move by less than 1 % of `range`.
 bool begins_still(const Values& values, const Range& range);

@@ -175,13 +175,14 @@ void compare_zeros(Recognised& all) {
   }
 }
 
-double step_of_lengths(const ColumnGuess& contraction, const std::vector<UnknownTable>& tables) {
-  if (contraction.input || contraction.unit.open() ||
-      !input::unit_problem(contraction.unit.value, "m").empty() || contraction.factor.value_or(Told{}).open())
+double step_of(const ColumnGuess& guess, std::string_view unit, const std::vector<UnknownTable>& tables) {
+  const std::string factor = guess.factor ? guess.factor->value : "1";
+  if (guess.input || guess.unit.open() || !input::unit_problem(guess.unit.value, std::string(unit)).empty() ||
+      (factor != "1" && factor != "-1"))
     return 0.0;
   double step = 0.0;
   for (const UnknownTable& table : tables) {
-    const Values* readings = column_of(table, contraction.column.value);
+    const Values* readings = column_of(table, guess.column.value);
     const double own = readings == nullptr ? 0.0 : data::step_of(*readings);
     if (own > 0.0 && (step == 0.0 || own < step)) step = own;
   }

@@ -59,11 +59,21 @@ class Recogniser {
     for (const auto& group : groups) all_.maps.push_back(map_of(group, rig_is_known, known_));
   }
 
+  /// Of several sheets each has its own.
+  std::string called(const UnknownTable& table) const {
+    const std::string file = table.path.stem().string();
+    const auto is_here = [&](const UnknownTable& one) { return one.path == table.path; };
+    if (std::ranges::none_of(
+            all_.tables, [&](const UnknownTable& one) { return is_here(one) && one.sheet != table.sheet; }))
+      return file;
+    return std::ranges::all_of(all_.tables, is_here) ? table.sheet : file + "_" + table.sheet;
+  }
+
   void runs() {
     std::map<std::string, int> used;
     bool any = false;
     for (std::size_t i = 0; i < all_.runs.size(); ++i) {
-      const std::string name = input::made_file_safe(all_.tables[i].path.stem().string());
+      const std::string name = input::made_file_safe(called(all_.tables[i]));
       const int earlier = used[name]++;
       all_.runs[i].id = earlier == 0 ? name : fmt::format("{}_{}", name, earlier + 1);
       if (const auto load = load_of(all_.tables[i])) all_.runs[i].load = Told{load->quantity, load->reason};
@@ -214,6 +224,9 @@ class Recogniser {
                                           clock_.empty() ? "" : "; ", clock_)}});
   }
 
+  static Told resolution(double step, const std::string& unit) {
+    return {fmt::format("{:.3g} {}", step, unit), "the readings come in steps of it"};
+  }
   void set(const char* key, Told told) { all_.rig.push_back({key, std::move(told)}); }
 
   void rig() {
@@ -237,17 +250,23 @@ class Recogniser {
       set("sensors.contraction.pulses_per_turn", left_open("of the encoder's disk"));
       set("sensors.contraction.wheel_ratio", left_open("turns of the disk for one of the wheel"));
     }
-    if (const double step = contraction == nullptr ? 0.0 : step_of_lengths(*contraction, all_.tables);
+    if (const double step = contraction == nullptr ? 0.0 : step_of(*contraction, "m", all_.tables);
         step > 0.0) {
       set("sensors.contraction.kind", {"laser",
                                        "lengths were read (or linear_encoder); noise, accuracy and "
                                        "highest of its data sheet help, too"});
-      set("sensors.contraction.resolution",
-          {fmt::format("{:.3g} {}", step, unit), "the readings come in steps of it"});
+      set("sensors.contraction.resolution", resolution(step, unit));
     }
     if (const ColumnGuess* pressure = first_map().find("muscle_pressure");
         pressure != nullptr && !pressure->input)
       set("sensors.muscle_pressure.kind", {"gauge", "a muscle pressure was recorded"});
+    if (const ColumnGuess* force = first_map().find("force"); force != nullptr && !force->input) {
+      set("sensors.force.kind", {"load_cell",
+                                 "a force was recorded; noise, accuracy and highest of its data "
+                                 "sheet help, too"});
+      if (const double step = step_of(*force, "N", all_.tables); step > 0.0)
+        set("sensors.force.resolution", resolution(step, force->unit.value));
+    }
     if (held_ && contraction != nullptr && contraction->input)
       set("mechanics", {"{kind: held_length}", "a force was read, at lengths that stay"});
     else if (held_)

@@ -170,7 +170,7 @@ TEST_F(Recognise, OurOwnRowsEachTickNeedNothing) {
   const auto row = [](int k) {
     return fmt::format("{},{},{}", k * 0.012, k < 5 ? 0.0 : 16 * drive(k), k < 5 ? 0.0 : 0.2 * drive(k));
   };
-  const Recognised found = recognise({run("5kg.csv", "time_s,current_mA,contraction_ratio\n", row)}, true);
+  const Recognised found = recognise({run("9kg.csv", "time_s,current_mA,contraction_ratio\n", row)}, true);
   EXPECT_TRUE(found.dataset.empty()) << "no clock of their own";
   EXPECT_EQ(found.open(), 0u);
   EXPECT_FALSE(found.maps[0].find("contraction")->zero);
@@ -203,13 +203,27 @@ TEST_F(Recognise, LengthsThatABenchHolds) {
   EXPECT_EQ(setting(found.rig, "tick"), nullptr);
   EXPECT_EQ(found.maps[0].rows->key, "settled");
   EXPECT_EQ(found.open(), 5u) << "muscle's three, its length's zero, what a point took";
+  EXPECT_EQ(setting(found.rig, "sensors.force.kind")->told.value, "load_cell");
+  EXPECT_EQ(setting(found.rig, "sensors.force.resolution")->told.value, "0.01 N");
+}
+
+TEST_F(Recognise, SheetsNameTheirRuns) {
+  const std::filesystem::path book = std::filesystem::path(MCKIBBEN_TEST_DATA) / "sine_and_stair_5kg.xlsx";
+  const Recognised alone = recognise({book}, true);
+  ASSERT_EQ(alone.runs.size(), 2u);
+  EXPECT_EQ(alone.runs[0].id, "slow_sine");
+  const auto row = [](int k) { return fmt::format("{},{},{}", k * 0.012, 16 * drive(k), 0.2 * drive(k)); };
+  const Recognised among =
+      recognise({book, run("9kg.csv", "time_s,current_mA,contraction_ratio\n", row)}, true);
+  EXPECT_EQ(among.runs[0].id, "sine_and_stair_5kg_slow_sine");
+  EXPECT_EQ(among.runs[2].id, "9kg");
 }
 
 TEST_F(Recognise, RunsThatBeginOnTheirWay) {
   const auto row = [](int k) {
     return fmt::format("{},{},{}", k * 0.012, 16 * drive(k + 50), 0.2 * drive(k + 50));
   };
-  const Recognised found = recognise({run("5kg.csv", "time_s,current_mA,contraction_ratio\n", row)}, true);
+  const Recognised found = recognise({run("9kg.csv", "time_s,current_mA,contraction_ratio\n", row)}, true);
   EXPECT_EQ(setting(found.dataset, "start")->told.value, "moving");
 }
 
