@@ -195,7 +195,19 @@ std::optional<Finding> load_cell_off(const domain::Dataset& data, const std::vec
   place.factor = domain::significant(place.factor / cell.factor, 3);
   const std::string meant = line_of(key, place);
   const double more = 100.0 * (cell.factor - 1.0);
-  if (by_factor)
+  const auto in_unit = [&](double of_label) {
+    return several && std::abs(cell.factor / of_label - 1.0) < of_cells.gain_of_load_cell;
+  };
+  const char* const unit = in_unit(domain::pound_kg)                ? "lb, not kg: write lb"
+                           : in_unit(1.0 / domain::pound_kg)        ? "kg that are written in lb: write kg"
+                           : in_unit(1.0 / plant::gravity_m_per_s2) ? "N, not kg: write the mass, N / 9.81"
+                                                                    : nullptr;
+  if (by_factor && unit != nullptr)
+    found.message = fmt::format(
+        "{} reads {:.3g} times what hangs there, under every load: all loads look like {}; or is a factor of "
+        "the load cell left out? Then columns: {{{}}}",
+        key, cell.factor, unit, meant);
+  else if (by_factor)
     found.message = fmt::format(
         "{} reads {:.3g} times what hangs there{}: is a factor of the load cell left out? Then columns: "
         "{{{}}}; or {} {:.0f} % {} than written{}",

@@ -190,11 +190,17 @@ class Ranges {
     };
     const double ratio = per_number(units_of_contraction(rig_), as_contraction);
     const double bar = per_number(units_of_pressure(), as_pressure) / plant::Pa_per_bar;
-    const double contraction = largest_read(pressure_bar) / bar * ratio,
-                 seems_bar = largest_read(values()) / ratio * bar;
-    return within(pressure_bar, lowest_ratio, infinite) && contraction > hardly_contracts &&
-           contraction < highest_ratio &&
-           seems_bar * plant::Pa_per_bar < thresholds.plausible.beyond_supply * rig_.valve.supply_pressure_Pa;
+    const double most_bar =
+        thresholds.plausible.beyond_supply * rig_.valve.supply_pressure_Pa / plant::Pa_per_bar;
+    const auto would_do = [&](double zero, double lowest_bar) {
+      Series contractions = pressure_bar, seem_bar = values();
+      for (double& value : contractions) value = (value / bar - zero) * ratio;
+      for (double& value : seem_bar) value = (value / ratio + zero) * bar;
+      return within(contractions, lowest_ratio, highest_ratio) &&
+             largest_read(contractions) > hardly_contracts && within(seem_bar, lowest_bar, most_bar);
+    };
+    return would_do(0.0, -infinite) ||  // whatever was said of the zeros
+           would_do(as_contraction.zero - as_pressure.zero, lowest_read_bar);
   }
 
   /// In which its numbers would be contractions of this muscle; a guess where they are in none.

@@ -40,6 +40,25 @@ TEST(Ranges, ASignComesBeforeAnExchangeOfColumns) {
   EXPECT_EQ(asked(even(0.0, 0.2)), "");
 }
 
+TEST(Ranges, ALengthWithAZeroThatStandsUnderThePressureLooksExchanged) {
+  domain::ColumnMap map;
+  map["contraction"] = {.column = "laser", .unit = "mm", .zero = 431.2, .factor = -1.0};
+  map["muscle_pressure"] = {.column = "p", .unit = "psi"};
+  const auto asked = [&](double low_mm, double high_mm) {
+    std::vector<double> ratios = even(11.0, 58.0), bar = even(low_mm, high_mm);  // psi and mm, as read
+    for (double& value : ratios) value = -(value - 431.2) / 250.0;
+    for (double& value : bar) value *= 0.0689476;
+    const std::vector<ReadColumn> columns{{"contraction_ratio", &ratios}, {"muscle_pressure_bar", &bar}};
+    const auto found = check_ranges(columns, map, rig_of_250_mm());
+    return found.empty() ? "" : found.front().message;
+  };
+  EXPECT_TRUE(holds(asked(370.0, 430.0),
+                    "it looks exchanged with muscle_pressure; write columns: "
+                    "{contraction: {column: p, unit: mm, zero: 431.2, factor: -1}, "
+                    "muscle_pressure: {column: laser, unit: psi}}"));
+  EXPECT_TRUE(lacks(asked(12.0, 60.0), "exchanged")) << "no length of this muscle";
+}
+
 TEST(Ranges, AGivenPressureThatIsAForceLooksExchangedWithIt) {
   domain::ColumnMap map;
   map["muscle_pressure"] = {.column = "F", .unit = "bar", .as = domain::Role::input};

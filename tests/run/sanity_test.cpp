@@ -193,6 +193,9 @@ TEST(Sanity, AZeroOrFactorOfALoadCellThatWasForgottenIsAskedFor) {
                     "under every load: ", "Then columns: {force: {column: F, unit: N, factor: 2.3",
                     "or all loads are 8", " % more than written"));
   EXPECT_TRUE(holds(told(0.5, 0.0), "factor: 5", " % less than written"));
+  EXPECT_TRUE(holds(told(0.46, 0.0),
+                    "times what hangs there, under every load: all loads look like lb, not "
+                    "kg: write lb; or is a factor of the load cell left out?"));
   EXPECT_TRUE(holds(told(1.3, -20.0), "times what hangs there and ", " N less, under every load: "));
   EXPECT_TRUE(holds(told(2.0, 0.0, 1), "times what hangs there: ", "or the load is ",
                     "one load does not separate them"));
