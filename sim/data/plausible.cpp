@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <plant/geometry.hpp>
 #include <sim/data/amount.hpp>
 #include <sim/data/clocks.hpp>
 #include <sim/data/lost_rows.hpp>
@@ -20,6 +21,7 @@
 #include <sim/data/series.hpp>
 #include <sim/data/thresholds.hpp>
 #include <sim/data/units.hpp>
+#include <sim/domain/number.hpp>
 
 namespace mckibben::data {
 namespace {
@@ -97,6 +99,7 @@ class Plausible {
       return;
     }
     if (column.given && column.channel.signal == &command_) command(column.channel, column.values);
+    if (key == "contraction" && column.given) return held_length(key, column.values);
     const bool position = key == "contraction" || key == "angle";
     if (!position || column.given) return;
     never_moves(key, column.values);
@@ -148,6 +151,30 @@ class Plausible {
       const Series values = known(column.values);
       return column.given && !values.empty() && range(values) > 0.0;
     });
+  }
+
+  /// A muscle that is held longer than at rest: its threads are taut, and a length that is off by 0.1 mm is
+  /// off by much force.
+  void held_length(const std::string& key, const Series& values) {
+    const Series ratios = known(values);
+    if (ratios.empty()) return;
+    const plant::Braid braid(data_.rig.muscle);
+    const double lowest = std::ranges::min(ratios), longer_m = -lowest * braid.rest_length_m();
+    const Series pressures_Pa = known(run().measured->given("muscle_pressure"));
+    const double most_Pa =
+        pressures_Pa.empty() ? data_.rig.valve.supply_pressure_Pa : std::ranges::max(pressures_Pa);
+    const double stop_N = braid.stop_stiffness_N_per_m() * longer_m;
+    if (!(stop_N > limits.taut_share * braid.largest_force_N(most_Pa))) return;
+    ColumnPlace meant = map_[key];
+    const double per_unit = meant.factor * run().ratio_per_unit;
+    meant.zero = domain::significant(meant.zero + lowest / per_unit, 6);
+    find(key, "taut",
+         fmt::format(
+             "the muscle is held {:.3g} mm longer than at rest, where the taut threads of the rig "
+             "pull {:.3g} N beside the braid: is the zero of the length or rest_length off? About "
+             "columns: {{{}}}; or a real muscle stretches there: write muscle: {{stop_stiffness: ...}}",
+             1e3 * longer_m, stop_N, line_of(key, meant)),
+         Severity::doubtful);
   }
 
   void given_pressure(const std::string& key, const Series& values_Pa) {

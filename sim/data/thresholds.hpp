@@ -158,6 +158,7 @@ struct PlausibleThresholds {
   double between_share = 0.2;   ///< in such a share of the rows, are duties
   double lifts_nothing_Pa = 0.15e5, moves_far = 0.02;
   double least_atmosphere_Pa = 0.95e5, most_atmosphere_Pa = 1.06e5;
+  double taut_share = 0.02;   ///< of a held muscle's largest force: what its taut threads pull beside it
   double nearer = 1.0 / 3.0;  ///< of the error is left if a given pressure is taken as absolute
   double rests = 3e-3, resting_share = 0.05;    ///< relative; of the rows
   double lowest_share = 0.01;                   ///< of the rows: a run's lowest pressure but for noise

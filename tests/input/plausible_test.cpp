@@ -92,6 +92,27 @@ TEST_F(PlausibleData, CommandsBeyondOrBetweenTheValvesAreAskedAbout) {
                     "above that it is open all the time, a duty of 100 %; are zero_command"));
 }
 
+TEST_F(PlausibleData, AMuscleHeldLongerThanAtRestPullsByItsTautThreads) {
+  const auto asked = [&](const std::string& zero) {
+    std::string rows = "t,p,x,F\n";
+    for (int k = 0; k < 200; ++k)
+      rows += fmt::format("{},{:.3f},0,{:.1f}\n", 10 * k, 0.5 + 0.01 * k, 125.0 + 2.5 * k);
+    place_.write("a.csv", rows);
+    place_.write("dataset.yaml",
+                 "schema: mckibben-dataset/1\nrig: {base: thesis, mechanics: {kind: held_length}}\ncolumns:\n"
+                 "  time: {column: t, unit: ms}\n  muscle_pressure: {column: p, unit: bar, as: input}\n"
+                 "  contraction: {column: x, unit: mm, as: input, zero: " +
+                     zero + "}\n  force: {column: F, unit: N}\nruns:\n  - {id: a, file: a.csv}\n");
+    return said(implausible(input::read_dataset(place_)));
+  };
+  EXPECT_EQ(asked("0"), "");
+  EXPECT_EQ(asked("0.01"), "");
+  EXPECT_TRUE(holds(asked("0.2"),
+                    "doubtful: the muscle is held 0.2 mm longer than at rest, where the taut "
+                    "threads of the rig pull 60 N beside the braid",
+                    "{contraction: {column: x, unit: mm, as: input}}", "stop_stiffness"));
+}
+
 TEST_F(PlausibleData, WhatIsSoundIsSilent) {
   EXPECT_EQ(said(find(good)), "");
 }
