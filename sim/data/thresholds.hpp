@@ -64,6 +64,8 @@ struct ColumnThresholds {
 struct ExchangedThresholds {
   std::size_t most_runs = 4, most_stamps = 20'000, most_rows = 2'000;  ///< simulated for each pair
   double least_left = 0.02;  ///< of the squares of every reading: with less left they are as they are said
+  double none_left = 1.0;    ///< with more left nothing of a run alone is as it is said,
+  std::size_t most_single = 20;            ///< and so many are tried
   double most_left = 0.25, nearer = 0.25;  ///< exchanged, less is left, and such a share of that at most
 };
 

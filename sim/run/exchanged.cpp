@@ -114,20 +114,27 @@ std::string exchange(domain::Dataset& data, std::size_t one, std::size_t other) 
   return lines;
 }
 
-}  // namespace
+/// Whether a column's values differ, over all runs: what never moves is told by no motion.
+bool moves(const domain::Dataset& data, std::size_t column) {
+  double low = never, high = -never;
+  for (const domain::Run& run : data.runs)
+    if (column < run.measured->columns.size())
+      for (const double value : run.measured->columns[column].values)
+        low = std::fmin(low, value), high = std::fmax(high, value);
+  return low < high;
+}
 
-std::optional<data::Finding> exchanged_columns(const domain::Dataset& data) {
-  if (!data.own_clock || data.rows_of_stamps || data.runs.empty() ||
-      !std::ranges::all_of(data.runs, reads_something))
-    return std::nullopt;
+/// In all of these runs.
+std::optional<data::Finding> exchanged_in(const domain::Dataset& data, double least_left) {
   const domain::Dataset first = first_of(data);
   const double as_said = left_of(first);
-  if (as_said < of_trial.least_left) return std::nullopt;
+  if (as_said < least_left) return std::nullopt;
   const auto& columns = first.runs.front().measured->columns;
   double least = std::min(of_trial.most_left, of_trial.nearer * as_said);
   std::optional<data::Finding> found;
   for (std::size_t one = 0; one < columns.size(); ++one)
     for (std::size_t other = 0; other < one; ++other) {
+      if (!moves(first, one) || !moves(first, other)) continue;
       domain::Dataset tried = first;
       const std::string lines = exchange(tried, other, one);
       if (lines.empty()) continue;
@@ -143,9 +150,30 @@ std::optional<data::Finding> exchanged_columns(const domain::Dataset& data) {
                                                    "another unit",
                                                    a, b, 100.0 * std::sqrt(left), lines)};
     }
-  if (!found) return found;
-  found->runs.resize(data.runs.size());
-  std::iota(found->runs.begin(), found->runs.end(), std::size_t{0});
+  return found;
+}
+
+}  // namespace
+
+std::optional<data::Finding> exchanged_columns(const domain::Dataset& data) {
+  if (!data.own_clock || data.rows_of_stamps || data.runs.empty() ||
+      !std::ranges::all_of(data.runs, reads_something))
+    return std::nullopt;
+  if (auto found = exchanged_in(data, of_trial.least_left)) {
+    found->runs.resize(data.runs.size());
+    std::iota(found->runs.begin(), found->runs.end(), std::size_t{0});
+    return found;
+  }
+  std::optional<data::Finding> found;  // of single runs, those of the first
+  domain::Dataset alone = data;
+  for (std::size_t i = 0; i < std::min(data.runs.size(), of_trial.most_single); ++i) {
+    alone.runs = {data.runs[i]};
+    auto own = exchanged_in(alone, of_trial.none_left);
+    if (!own) continue;
+    const auto pair = [](const data::Finding& one) { return one.message.substr(0, one.message.find(':')); };
+    if (!found) found = own;
+    if (pair(*own) == pair(*found)) found->runs.push_back(i);
+  }
   return found;
 }
 

@@ -33,9 +33,11 @@ domain::Dataset stamped(domain::Dataset data = sound()) {
   return data;
 }
 
-/// What is said once two of the columns hold each other's numbers.
-std::string told(std::size_t one, std::size_t other, domain::Dataset data = stamped()) {
-  for (domain::Run& run : data.runs) {
+/// With two of the columns holding each other's numbers, in the runs from `first` to before `end`.
+domain::Dataset exchanged(std::size_t one, std::size_t other, domain::Dataset data, std::size_t first,
+                          std::size_t end) {
+  for (std::size_t i = first; i < end; ++i) {
+    domain::Run& run = data.runs[i];
     const double size[] = {data.columns["command"].factor, run.ratio_per_unit, plant::Pa_per_bar};
     auto& columns = run.measured->columns;
     for (std::size_t k = 0; k < run.measured->time_s.size(); ++k) {
@@ -47,8 +49,39 @@ std::string told(std::size_t one, std::size_t other, domain::Dataset data = stam
       b *= size[other];
     }
   }
-  const auto found = exchanged_columns(data);
+  return data;
+}
+
+/// What is said where all do.
+std::string told(std::size_t one, std::size_t other, domain::Dataset data = stamped()) {
+  const std::size_t runs = data.runs.size();
+  const auto found = exchanged_columns(exchanged(one, other, std::move(data), 0, runs));
   return found ? found->message : "";
+}
+
+TEST(Exchanged, InSomeRunsAloneTheyAreTold) {
+  for (const auto& [one, other] : std::vector<std::pair<std::size_t, std::size_t>>{{0, 2}, {1, 2}, {0, 1}}) {
+    const auto found = exchanged_columns(exchanged(one, other, stamped(), 2, 4));
+    ASSERT_TRUE(found) << one << " " << other;
+    EXPECT_EQ(found->runs, (std::vector<std::size_t>{2, 3}));
+  }
+}
+
+TEST(Exchanged, WhatNeverMovesIsNotInARunAlone) {
+  domain::Dataset data = stamped();
+  data.runs.resize(2);
+  data.rig.mechanics = plant::HeldLength{};
+  data.columns["force"] = {"F", "N"};
+  for (domain::Run& run : data.runs) {
+    const std::vector<double> pressure_Pa = run.measured->read("muscle_pressure");
+    domain::Measurement held;
+    held.time_s = run.measured->time_s;
+    held.give("muscle_pressure") = pressure_Pa;
+    held.give("contraction").assign(pressure_Pa.size(), &run == &data.runs.front() ? 0.0 : 0.1);
+    held.take("force").assign(pressure_Pa.size(), 1.0);  // of a table that was to be filled
+    run.measured = std::move(held);
+  }
+  EXPECT_FALSE(exchanged_columns(data));
 }
 
 TEST(Exchanged, EveryPairOfColumnsIsTold) {
