@@ -10,8 +10,8 @@
 namespace mckibben::run {
 
 /// Two columns, of one muscle or the commands of two whose gauges were read, with which, exchanged, the rig
-/// does what was read, and as they are said it does not: in all runs, or in single ones. Data before they have
-/// rows; of others none.
+/// does what was read, and as they are said it does not: in all runs, or in single ones. Data before they
+/// have rows; of others none.
 std::optional<data::Finding> exchanged_columns(const domain::Dataset& data);
 
 /// What can hardly be (data::implausible), or only that columns are exchanged: then nothing else is true of

@@ -203,8 +203,16 @@ TEST_F(Recognise, LengthsThatABenchHolds) {
   EXPECT_EQ(setting(found.rig, "tick"), nullptr);
   EXPECT_EQ(found.maps[0].rows->key, "settled");
   EXPECT_EQ(found.open(), 5u) << "muscle's three, its length's zero, what a point took";
+  EXPECT_NE(setting(found.rig, "sensors.force.kind"), nullptr);
+}
+
+TEST_F(Recognise, AForceThatWasReadHasALoadCell) {
+  const auto row = [](int k) { return fmt::format("{:.2f};{:.0f}", 5 * drive(k), 40 * drive(k)); };
+  const Recognised found = recognise({run("5kg.csv", "Druck [bar];Kraft [N]\n", row)}, false);
+  ASSERT_NE(setting(found.rig, "sensors.force.kind"), nullptr);
   EXPECT_EQ(setting(found.rig, "sensors.force.kind")->told.value, "load_cell");
-  EXPECT_EQ(setting(found.rig, "sensors.force.resolution")->told.value, "0.01 N");
+  ASSERT_NE(setting(found.rig, "sensors.force.resolution"), nullptr);
+  EXPECT_EQ(setting(found.rig, "sensors.force.resolution")->told.value, "1 N");
 }
 
 TEST_F(Recognise, SheetsNameTheirRuns) {
