@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sim/domain/rig_number.hpp>
 #include <sim/run/compare.hpp>
 
 namespace mckibben::run {
