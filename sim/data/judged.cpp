@@ -251,7 +251,7 @@ class Judging {
   }
 
   double noise_of_slow(const std::vector<double>& readings) const {
-    if (raw_.point_s == 0.0) return slow_noise(raw_.time_s, readings);
+    if (raw_.point_s == 0.0) return slow_noise(readings);
     std::vector<std::vector<double>> inputs;
     for (const MeasuredColumn& column : raw_.columns)
       if (column.given && !column.values.empty())

@@ -78,8 +78,8 @@ std::vector<std::size_t> rows_that_jump(const Series& values) {
   for (std::size_t k = 0; k < values.size(); ++k)
     if (!std::isnan(values[k])) known.push_back(values[k]), rows.push_back(k);
   if (known.size() < 2 * of_lost_rows.beside) return found;
-  const double least = std::max(of_lost_rows.grains * step_of(known),
-                                of_lost_rows.noises * slow_noise({rows.begin(), rows.end()}, known));
+  const double least =
+      std::max(of_lost_rows.grains * step_of(known), of_lost_rows.noises * slow_noise(known));
   for (std::size_t k = of_lost_rows.beside; k + of_lost_rows.beside <= known.size(); ++k)
     if (is_jump(known, k, least)) found.push_back(rows[k]);
   return found;

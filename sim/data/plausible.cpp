@@ -171,7 +171,7 @@ class Plausible {
     find(key, "taut",
          fmt::format(
              "the muscle is held {:.3g} mm longer than at rest, where the taut threads of the rig "
-             "pull {:.3g} N beside the braid: is the zero of the length or rest_length off? About "
+             "add {:.3g} N to the braid's pull: is the zero of the length or rest_length off? About "
              "columns: {{{}}}; or a real muscle stretches there: write muscle: {{stop_stiffness: ...}}",
              1e3 * longer_m, stop_N, line_of(key, meant)),
          Severity::doubtful);

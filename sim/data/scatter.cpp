@@ -1,6 +1,7 @@
 // Averages over neighbours and differences; see the header.
 #include <array>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/LU>
@@ -148,6 +149,12 @@ double slow_noise(std::vector<double> time_s, std::vector<double> values) {
   std::erase_if(time_s, [](double one) { return std::isnan(one); });
   std::erase_if(values, [](double one) { return std::isnan(one); });
   return noise();
+}
+
+double slow_noise(std::vector<double> values) {
+  std::vector<double> rows(values.size());
+  std::iota(rows.begin(), rows.end(), 0.0);
+  return slow_noise(std::move(rows), std::move(values));
 }
 
 double points_noise(const std::vector<double>& read, const std::vector<std::vector<double>>& inputs) {

@@ -69,9 +69,11 @@ double range_of(const std::vector<double>& values);
 /// Noise of single readings from what is left of parabolas; the median is blind to jumps.
 double noise_of(const std::vector<double>& squares);
 
-/// White noise of readings that come slowly, from their fourth differences, divided by their stamps'; of those
-/// that are there, where never five are together.
+/// White noise of readings that come slowly, from their fourth differences, divided by their stamps'; of
+/// those that are there, where never five are together.
 double slow_noise(std::vector<double> time_s, std::vector<double> values);
+/// As if rows were even: what stamps are off by counts as noise.
+double slow_noise(std::vector<double> values);
 
 /// Noise of settled points: what the last of four that go one way is off the parabola through the others,
 /// over the input that moves most. The median is blind to where they turn.

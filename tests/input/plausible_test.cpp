@@ -109,7 +109,7 @@ TEST_F(PlausibleData, AMuscleHeldLongerThanAtRestPullsByItsTautThreads) {
   EXPECT_EQ(asked("0.01"), "");
   EXPECT_TRUE(holds(asked("0.2"),
                     "doubtful: the muscle is held 0.2 mm longer than at rest, where the taut "
-                    "threads of the rig pull 60 N beside the braid",
+                    "threads of the rig add 60 N to the braid's pull",
                     "{contraction: {column: x, unit: mm, as: input}}", "stop_stiffness"));
 }
 
