@@ -1,4 +1,5 @@
 // See the header.
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -21,6 +22,16 @@ double noise_of_readings(const std::vector<double>& time_s, const std::vector<do
   return noise_of(left);
 }
 
+/// Between neighbours among all values: a command lies on the steps of what sent it, or of how it was
+/// written.
+double least_step(std::vector<double> values) {
+  std::ranges::sort(values);
+  double least = range_of(values);
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (const double step = values[k] - values[k - 1]; step > 1e-12) least = std::min(least, step);
+  return least;
+}
+
 }  // namespace
 
 double noise_of_given(const domain::Measurement& recorded, const domain::MeasuredColumn& given,
@@ -29,6 +40,7 @@ double noise_of_given(const domain::Measurement& recorded, const domain::Measure
   const std::vector<double>& values = given.values;
   const double noise = noise_of_readings(recorded.time_s, values, row_s);
   if (!given.is_command()) return noise;
+  if (noise < least_step(values)) return 0.0;
   std::size_t repeated = 0;
   for (std::size_t k = 1; k < values.size(); ++k)
     if (values[k] == values[k - 1]) ++repeated;
