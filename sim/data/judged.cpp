@@ -20,7 +20,8 @@ namespace {
 using domain::is_read, domain::MeasuredColumn, domain::Measurement, domain::Rows;
 
 constexpr double even_row_s = 0.012;     // no load bends within half of it by what a sensor could show
-constexpr double slack_share = 0.002;    // of a run's largest force: less is a cord that hangs through
+constexpr double slack_share = 0.002;    // of a run's largest force: less is a slack cord,
+constexpr double slack_noises = 3.0;     // or a load cell's noise
 constexpr double enough_readings = 6.0;  // in a row, to be averaged
 constexpr std::size_t quarters = 4;      // of a row, in which inputs are followed
 constexpr double straight = 5e-3;        // of an input's range: it neither jumps nor bends by less
@@ -91,15 +92,21 @@ class Judging {
     return bare;
   }
 
-  /// A cord without force is slack: how far the muscle is from pulling, no load cell reads.
+  /// A cord without force is slack: how far the muscle is from pulling, no load cell reads. Single readings
+  /// are smoothed first: of those near the limit, noise would choose which count.
   void leave_out_slack() {
-    double most_N = 0.0;
     std::vector<double>& read_N = raw_.take("force");
-    for (const double force_N : read_N)
+    const std::vector<double> recorded_N = read_N;
+    const double noise_N = raw_.point_s > 0.0 ? 0.0 : slow_noise(raw_.time_s, recorded_N);
+    double most_N = 0.0;
+    for (const double force_N : recorded_N)
       if (force_N > most_N) most_N = force_N;
-    for (double& force_N : read_N) {
-      if (!(force_N <= slack_share * most_N)) continue;
-      force_N = std::nan("");
+    const Column column(raw_.time_s, recorded_N);
+    const double least_N = std::max(slack_share * most_N, slack_noises * noise_N),
+                 near_s = 2.0 * median_gap_s(raw_);
+    for (std::size_t k = 0; k < read_N.size(); ++k) {
+      if (!(column.smooth(raw_.time_s[k], near_s, noise_N) <= least_N)) continue;
+      read_N[k] = std::nan("");
       ++slack;
     }
   }

@@ -21,7 +21,6 @@ class Prediction final : public run::Follower {
   Prediction(const domain::Run& run, std::span<const Loaded> rigs, Done done, run::Disturbance disturbance)
       : Follower({rigs.begin(), rigs.end()}, rigs.front().rig, run::course_of(run, rigs.front().rig),
                  std::move(disturbance)),
-        length_is_given_(run.length_is_given()),
         rest_length_m_(run.rest_length_m),
         done_(std::move(done)),
         readings_(rigs.size()) {
@@ -60,13 +59,11 @@ class Prediction final : public run::Follower {
     const plant::Sensor* sensor = rig.sensors.of(sensed);
     if (sensed != plant::Sensed::force || (sensor != nullptr && sensor->is_late()))
       return now.of(sensed, channel.muscle);
-    const double force_N = rider.cord_force_N(channel.muscle);
-    return length_is_given_ ? force_N : std::max(force_N, 0.0);
+    return std::max(rider.cord_force_N(channel.muscle), 0.0);  // a cord that would push is slack
   }
 
   std::vector<plant::Channel> channels_;  // that were read
-  bool length_is_given_;
-  double rest_length_m_;  // that readings go by; 0: each rig's own
+  double rest_length_m_;                  // that readings go by; 0: each rig's own
   Done done_;
   std::vector<Readings> readings_;
 };

@@ -36,5 +36,15 @@ TEST(Bench, TheZeroOfTheLengthShiftsWhatIsGiven) {
   EXPECT_NEAR(readings.judged()[4], plant::Braid(rig.muscle).force_N(0.12, readings.pressure_Pa[4]), 1e-6);
 }
 
+TEST(Bench, ACordThatWouldPushReadsNothing) {
+  const plant::Rig nominal;
+  const domain::Dataset data = on_a_bench(nominal, 0.0);
+  plant::Rig rig = nominal;
+  rig.joint.length_offset_m = 0.2 * nominal.muscle.rest_length_m;  // shorter than the braid can be
+  const Loaded held{rig, 0.0};
+  const auto readings = predict(data.runs[4], {&held, 1}).front();
+  for (const double force_N : readings.judged()) EXPECT_EQ(force_N, 0.0);
+}
+
 }  // namespace
 }  // namespace mckibben::diagnose

@@ -132,6 +132,31 @@ TEST(Judged, AGivenPressureIsSmoothed) {
   }
 }
 
+// A held muscle that pulls from 2 bar on, read by a load cell with noise: where it does not pull, the
+// readings say nothing, unless the cell's zero is off, which they show.
+TEST(Judged, ASlackCordReadsTheNoiseOfItsCell) {
+  constexpr double noise_N = 2.0;
+  const auto recorded = [](double zero_N) {
+    std::mt19937_64 random(8);
+    std::normal_distribution<double> noise(zero_N, noise_N);
+    domain::Dataset data;
+    data.own_clock = true;
+    domain::Measurement& measured = data.runs.emplace_back().measured.emplace();
+    for (double at_s = 0.0; at_s < 8.0; at_s += 0.01) {
+      const double now_Pa = 3e5 - 2e5 * std::cos(0.5 * std::numbers::pi * at_s);
+      measured.time_s.push_back(at_s);
+      measured.give("contraction").push_back(0.1);
+      measured.give("muscle_pressure").push_back(now_Pa);
+      measured.take("force").push_back(std::max(0.0, 1e-3 * (now_Pa - 2e5)) + noise(random));
+    }
+    return with_rows(std::move(data));
+  };
+  const domain::Dataset data = recorded(0.0);
+  EXPECT_NEAR(static_cast<double>(data.rows_of_stamps->slack), 800.0 / 3.0, 12.0);
+  for (const double read_N : data.runs[0].judged().values) EXPECT_GT(read_N, 0.0);
+  EXPECT_EQ(recorded(30.0).rows_of_stamps->slack, 0u);
+}
+
 // A command that was measured, by an ADC: it drives smoothly. One that was written down is what was sent.
 TEST(Judged, ANoisyCommandIsSmoothed) {
   for (const double per_s : {1000.0, 100.0})
