@@ -187,8 +187,8 @@ int make_ensemble(const Options& options, const domain::Campaign& campaign, run:
 }
 
 /// What a student is to find: where the rig that is handed out is not the campaign's (campaign_file.cpp). And
-/// which effects it has already.
-std::string hidden_in_words(const domain::Campaign& campaign) {
+/// which effects that rig, in `rig_in`, has already.
+std::string hidden_in_words(const domain::Campaign& campaign, const std::string& rig_in) {
   std::vector<std::string> hidden, told;
   const auto sort = [&](const plant::Effects& there, const plant::Effects& known, const char* whose) {
     const input::Json effects = input::to_json(there), handed_out = input::to_json(known);
@@ -203,7 +203,7 @@ std::string hidden_in_words(const domain::Campaign& campaign) {
   if (pair) sort(rig.pair()->opposite.effects, known.pair()->opposite.effects, " of muscle 2");
   if (rig.joint.load_offset_kg != known.joint.load_offset_kg) hidden.emplace_back("joint.load_offset");
   return fmt::format("hidden: {}{}", hidden.empty() ? "nothing" : fmt::format("{}", fmt::join(hidden, ", ")),
-                     told.empty() ? "" : fmt::format("; in rig.yaml stands {}", fmt::join(told, ", ")));
+                     told.empty() ? "" : fmt::format("; known from {}: {}", rig_in, fmt::join(told, ", ")));
 }
 
 int make_campaign(const DatasetOptions& options, const domain::Campaign& campaign) {
@@ -224,7 +224,7 @@ int make_campaign(const DatasetOptions& options, const domain::Campaign& campaig
     warn(run::warnings_of(runs));
     print(options, {output::json_of(campaign, runs), output::table_of(campaign, runs)});
     fmt::print(stderr, "data set in {}, truth in {}; {}\n", folder.data().string(), folder.truth().string(),
-               hidden_in_words(campaign));
+               hidden_in_words(campaign, folder.rig_in()));
     return any_failed(runs) ? failure : done;
   });
 }

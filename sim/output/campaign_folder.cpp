@@ -230,6 +230,11 @@ std::vector<run::EndedRun> CampaignFolder::runs() const {
   return list;
 }
 
+std::string CampaignFolder::rig_in() const {
+  const std::string name = shipped_name(campaign_.known);
+  return name.empty() ? "rig.yaml" : fmt::format("dataset.yaml (rig: {})", name);
+}
+
 // What stands in both folders beside the runs.
 Digests CampaignFolder::write_rest(const std::vector<run::EndedRun>& runs, const Report& report) const {
   Digests files;

@@ -40,6 +40,9 @@ class CampaignFolder : public ResumedFolder {
   /// what was set aside. Throws CannotWrite.
   void publish(const std::vector<run::EndedRun>& runs, const Report& report) const;
 
+  /// Where the data set says which rig made it: its rig.yaml, or a shipped rig by name in dataset.yaml.
+  std::string rig_in() const;
+
   /// The folder of the truth.
   const std::filesystem::path& truth() const { return truth_; }
 

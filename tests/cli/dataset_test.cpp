@@ -123,7 +123,10 @@ TEST_F(Dataset, KeepsTheEffectsOfItsBase) {
   write_text(scratch / "small.yaml", text);
   const auto said = run("dataset small.yaml");
   ASSERT_EQ(said.status, 0);
-  EXPECT_TRUE(holds(said.err, "hidden: muscle_leak; in rig.yaml stands bladder_elasticity"));
+  EXPECT_TRUE(holds(said.err,
+                    "hidden: muscle_leak; known from dataset.yaml (rig: festo_dmsp_20): "
+                    "bladder_elasticity\n"));
+  EXPECT_FALSE(exists("out/small/rig.yaml"));
   EXPECT_TRUE(holds(read_text(scratch / "out/small/dataset.yaml"), "rig: festo_dmsp_20\n"));
   EXPECT_TRUE(holds(read_text(scratch / "out/small-truth/truth.yaml"), "bladder_elasticity", "muscle_leak"));
 }
@@ -136,8 +139,12 @@ TEST_F(Dataset, SaysWhatIsHiddenByValue) {
     write_text(scratch / "small.yaml", text);
     return run("dataset small.yaml --out out/" + std::to_string(++made)).err;
   };
-  EXPECT_TRUE(holds(said_of("{base: festo_dmsp_20, joint: {load_offset: 0.5 kg}}"),
-                    "hidden: joint.load_offset; in rig.yaml stands bladder_elasticity"));
+  EXPECT_TRUE(
+      holds(said_of("{base: festo_dmsp_20, joint: {load_offset: 0.5 kg}}"),
+            "hidden: joint.load_offset; known from dataset.yaml (rig: festo_dmsp_20): bladder_elasticity\n"));
+  EXPECT_TRUE(holds(said_of("{base: festo_dmsp_20, gauge: {fitted: true}, joint: {load_offset: 0.5 kg}}"),
+                    "hidden: joint.load_offset; known from rig.yaml: bladder_elasticity\n"));
+  EXPECT_TRUE(exists("out/2/rig.yaml"));
   EXPECT_TRUE(holds(said_of("{base: festo_dmsp_20, effects: {bladder_elasticity: {force: 333 N}}}"),
                     "hidden: bladder_elasticity\n"));
   EXPECT_TRUE(holds(said_of("{base: festo_dmsp_20, effects: {bladder_elasticity: {force: 0 N}}}"),
