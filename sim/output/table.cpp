@@ -67,17 +67,20 @@ std::string error_in_degrees(double error_rad) {
   return fmt::format("{:.2f}", error_rad / plant::degree_rad);
 }
 
-std::string tuned_line(const plant::Rig& rig, const run::TunedController& row) {
+std::string tuned_line(const plant::Rig& rig, const run::TunedController& row,
+                       const run::Comparison& comparison) {
+  const std::string cycles = run::cycle_words(comparison, rig, row.controller);
   const auto cost = [](std::optional<double> value) {
     return value ? fmt::format("{:.3g}", *value) : std::string("no result");
   };
   return fmt::format(
       "  {} at {:g} kg: proportional {:.4g} {}, integral_time {:.4g} s, derivative_time {:.4g} s ({} runs); "
-      "cost {:.3g}, at the start {}, without feedback {}{}\n",
+      "cost {:.3g}, at the start {}, without feedback {}{}{}\n",
       row.controller, row.load_kg, row.tuned.gains.proportional_mA / run::per_ratio(rig),
       in_unit(rig.command_unit(), rig.has_angle() ? "mA/rad" : "mA"), row.tuned.gains.integral_time_s,
       row.tuned.gains.derivative_time_s, row.tuned.evaluations, row.tuned.cost, cost(row.tuned.start_cost),
-      cost(row.idle_cost), run::gained_nothing(row) ? ": the tuning gained nothing" : "");
+      cost(row.idle_cost), run::gained_nothing(row) ? ": the tuning gained nothing" : "",
+      cycles.empty() ? "" : "; it " + cycles);
 }
 
 std::string robustness(const run::Comparison& comparison) {
@@ -298,7 +301,7 @@ std::string lines(const std::vector<std::string>& texts) {
 std::string table_of(const domain::Scenario& scenario, const run::Comparison& comparison) {
   std::string text = heading(scenario, comparison), tuned, failures;
   for (const auto& row : comparison.tuned)
-    if (row.failure.empty()) tuned += tuned_line(scenario.rig, row);
+    if (row.failure.empty()) tuned += tuned_line(scenario.rig, row, comparison);
   for (const auto& run : comparison.runs)
     if (!run.failure.empty()) failures += fmt::format("  {}: {}\n", run.id, run.failure);
 

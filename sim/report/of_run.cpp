@@ -95,8 +95,10 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   const std::string over = failed == 0         ? over_what(scenario)
                            : of_pair(scenario) ? "the runs with a result"
                                                : "the loads with a result";
-  const std::string error = fmt::format("{} {}{}", of_what, full_error_html(best->rmse->mean, scenario),
-                                        tasks_of(scenario).size() == 1 ? "" : ", the mean over " + over);
+  const std::string cycles = run::cycle_words(comparison, scenario.rig, best->controller);
+  const std::string error = fmt::format("{} {}{}{}", of_what, full_error_html(best->rmse->mean, scenario),
+                                        tasks_of(scenario).size() == 1 ? "" : ", the mean over " + over,
+                                        cycles.empty() ? "" : ", but it " + cycles);
   const std::string name = escaped(best->controller);
   if (best == worst)
     text = fmt::format("{}: {}.", name, error);

@@ -73,6 +73,7 @@ constexpr auto members_of_run = [](auto&& visit, auto& of) {
   visit(of.name);
   visit(of.target);
   visit(of.joint);
+  visit(of.cycle);
 };
 
 constexpr auto members_of_tuning = [](auto&& visit, auto& of) {
@@ -256,6 +257,8 @@ class Comparing {
     if (!run.failure.empty()) return;
     run.limits = limits_of(settings, briefing_.knowledge[run.target], scenario_.rig);
     run.metrics = metrics_of(scenario_, *wanted, run.recording, run.limits);
+    if (!scenario_.rig.has_angle() && !domain::is_given(settings))
+      run.cycle = limit_cycle(run.recording, *wanted, scenario_.rig.tick_s);
   }
 
   Unreachable unreachable_of(const TrackedRun& run, const controllers::Settings& settings) const {

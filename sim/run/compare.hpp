@@ -30,6 +30,7 @@ struct TrackedRun {
   std::string name{};                                 ///< of its files, without ending
   std::size_t target = 0;                             ///< which of the comparison's
   std::optional<JointFigures> joint{};                ///< of a pair, if there is a row
+  std::optional<LimitCycle> cycle{};                  ///< of a hanging load under a controller
 
   bool followed() const { return !controller.empty(); }
 };

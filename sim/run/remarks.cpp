@@ -81,7 +81,7 @@ bool rests_at_the_end(const std::vector<double>& target, double tick_s) {
 }
 
 /// Whether a load that oscillates stands still in between, as friction makes it: of a sine 3 % are so slow.
-bool sticks_between(const std::vector<double>& contraction, const std::vector<double>& target,
+bool sticks_between(const std::vector<Sample>& samples, const std::vector<double>& target,
                     const LimitCycle& cycle, double tick_s) {
   constexpr double slow = 0.05, sticks = 0.25;
   auto end = static_cast<std::size_t>(std::lround(cycle.from_s / tick_s)) + 1;
@@ -89,7 +89,8 @@ bool sticks_between(const std::vector<double>& contraction, const std::vector<do
   const auto ticks = std::min(static_cast<std::size_t>(std::lround(2.0 * cycle.period_s / tick_s)), end - 1);
   std::vector<double> steps;
   for (std::size_t k = end - ticks; k < end; ++k)
-    steps.push_back(std::abs(contraction[k] - contraction[k - 1]));
+    steps.push_back(
+        std::abs(samples[k].state.joint.contraction_ratio - samples[k - 1].state.joint.contraction_ratio));
   const double largest = std::ranges::max(steps);
   return static_cast<double>(std::ranges::count_if(steps, [&](double step) {
            return step < slow * largest;
@@ -122,6 +123,20 @@ std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std
     words += fmt::format(" (with {} kg for {:.0f} %)", domain::write_kg(most->load_kg),
                          100.0 * share_at_limit(*most));
   return "stood " + words;
+}
+
+std::string cycle_words(const Comparison& comparison, const plant::Rig& rig, std::string_view controller) {
+  const TrackedRun* widest = nullptr;
+  std::size_t runs = 0;
+  for (const TrackedRun& run : comparison.runs) {
+    if (run.controller != controller) continue;
+    ++runs;
+    if (run.cycle && (widest == nullptr || run.cycle->amplitude > widest->cycle->amplitude)) widest = &run;
+  }
+  if (widest == nullptr) return "";
+  return fmt::format("oscillates where its target rests, by ±{:.2g} mm{}",
+                     1e3 * widest->cycle->amplitude * rig.muscle.rest_length_m,
+                     runs > 1 ? fmt::format(" (with {} kg)", domain::write_kg(widest->load_kg)) : "");
 }
 
 std::string knowing_words(const domain::Scenario& scenario) {
@@ -237,15 +252,8 @@ bool follows_nothing(const domain::Scenario& scenario, const Comparison& compari
 
 std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const controllers::Settings& settings,
                           const plant::Rig& rig) {
-  if (rig.has_angle() || domain::is_given(settings) || !run.failure.empty() ||
-      (run.metrics.swings && !limit_warning(run, rig).empty()))
-    return "";
-  std::vector<double> contraction;
-  for (const Sample& sample : run.recording.samples)
-    contraction.push_back(sample.state.joint.contraction_ratio);
-  const auto cycle = limit_cycle(
-      {.target = wanted.ratios, .contraction = contraction, .current_mA = {}, .tick_s = rig.tick_s});
-  if (!cycle) return "";
+  const auto& cycle = run.cycle;
+  if (!cycle || (run.metrics.swings && !limit_warning(run, rig).empty())) return "";
   std::string text = fmt::format(
       "it oscillates where its target rests from {:.3g} s on, by ±{:.2g} mm with a period of {:.2g} s",
       cycle->from_s, 1e3 * cycle->amplitude * rig.muscle.rest_length_m, cycle->period_s);
@@ -255,7 +263,7 @@ std::string cycle_warning(const TrackedRun& run, const Wanted& wanted, const con
         pid->proportional_mA
             ? fmt::format(" (it is {:.4g} {})", *pid->proportional_mA, name_of(rig.command_unit()))
             : "",
-        sticks_between(contraction, wanted.ratios, *cycle, rig.tick_s)
+        sticks_between(run.recording.samples, wanted.ratios, *cycle, rig.tick_s)
             ? fmt::format(
                   ", a longer integral_time or, as friction holds it in between, a dead_zone of {:.2g}",
                   2.0 * cycle->amplitude)
@@ -272,7 +280,8 @@ bool in_doubt(const Comparison& comparison, std::string_view controller) {
     return std::any_of(list.begin(), list.end(),
                        [&](const auto& one) { return one.controller == controller && is_bad(one); });
   };
-  return has(comparison.runs, [](const TrackedRun& run) { return share_at_limit(run) >= mostly; }) ||
+  return has(comparison.runs,
+             [](const TrackedRun& run) { return run.cycle || share_at_limit(run) >= mostly; }) ||
          has(comparison.tuned, gained_nothing);
 }
 

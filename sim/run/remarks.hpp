@@ -21,6 +21,10 @@ double share_at_limit(const TrackedRun& run);
 /// time (with 8.87 kg for 31 %)". Empty below 1 %.
 std::string limit_words(const Comparison& comparison, const plant::Rig& rig, std::string_view controller);
 
+/// That a controller oscillates where its target rests, over its runs: "oscillates where its target rests, by
+/// ±7.8 mm (with 8.87 kg)", of several the widest. Empty if it does not.
+std::string cycle_words(const Comparison& comparison, const plant::Rig& rig, std::string_view controller);
+
 /// Of controllers whose model is the simulated rig itself, compared with one that has no model: that they
 /// know it exactly, and the key to write. Empty if there are none.
 std::string knowing_words(const domain::Scenario& scenario);
@@ -60,8 +64,8 @@ bool gained_nothing(const TunedController& tuned);
 /// That it gained nothing, the likely cause, and the key to change. Only if so.
 std::string tuning_warning(const TunedController& tuned, const plant::Rig& rig);
 
-/// True if a small error says little for a controller:
-/// in some run it stood mostly at a limit, or its tuning gained nothing.
+/// True if a small error says little for a controller: in some run it stood mostly at a limit or oscillates,
+/// which errors do not count before the first move, or its tuning gained nothing.
 bool in_doubt(const Comparison& comparison, std::string_view controller);
 
 }  // namespace mckibben::run

@@ -99,6 +99,14 @@ std::optional<LimitCycle> limit_cycle(const Followed& run) {
   return std::nullopt;
 }
 
+std::optional<LimitCycle> limit_cycle(const Recording& recording, const Wanted& wanted, double tick_s) {
+  std::vector<double> contraction;
+  contraction.reserve(recording.samples.size());
+  for (const Sample& sample : recording.samples) contraction.push_back(sample.state.joint.contraction_ratio);
+  return limit_cycle(
+      {.target = wanted.ratios, .contraction = contraction, .current_mA = {}, .tick_s = tick_s});
+}
+
 namespace {
 
 DrawnRun outcome(const domain::Scenario& scenario, const Wanted& target, const Recording& recording,
@@ -106,16 +114,9 @@ DrawnRun outcome(const domain::Scenario& scenario, const Wanted& target, const R
   if (!recording.failure.empty()) return {.why = recording.failure};
   const Metrics metrics = metrics_of(scenario, target, recording, limits);
   const double at_limit = metrics.at_lowest_current.value_or(0.0) + metrics.at_highest_current.value_or(0.0);
-  std::vector<double> contraction;
-  contraction.reserve(recording.samples.size());
-  for (const Sample& sample : recording.samples) contraction.push_back(sample.state.joint.contraction_ratio);
   return {.ended = true,
           .rmse = metrics.rmse,
-          .cycles = limit_cycle({.target = target.values,
-                                 .contraction = contraction,
-                                 .current_mA = {},
-                                 .tick_s = scenario.rig.tick_s})
-                        .has_value(),
+          .cycles = limit_cycle(recording, target, scenario.rig.tick_s).has_value(),
           .saturated = at_limit > saturated_share,
           .over_contracted = recording.largest_contraction_ratio > plant::risky_contraction_ratio};
 }

@@ -64,6 +64,7 @@ struct LimitCycle {
   double from_s;               ///< since when the target rests there
 };
 std::optional<LimitCycle> limit_cycle(const Followed& run);
+std::optional<LimitCycle> limit_cycle(const Recording& recording, const Wanted& wanted, double tick_s);
 
 /// One load under the controllers that `make` makes, on each of the scenario's drawn rigs. What is drawn
 /// depends on the scenario's seed and on nothing else: all controllers meet the same rigs, and the same noise

@@ -27,6 +27,28 @@ TEST(Run, SaysHowLongControllersStoodAtALimitOfTheirCurrent) {
                     "<th scope='row'>5 kg</th><td>31</td>"));
 }
 
+TEST(Run, SaysBesideTheErrorThatTheBestControllerOscillates) {
+  domain::Scenario scenario;
+  scenario.loads_kg = {5.0};
+  scenario.controllers = {controllers::PidSettings{}, controllers::StaticInverseSettings{}};
+  run::Comparison comparison;
+  comparison.runs.resize(2);
+  comparison.runs[0].controller = "pid";
+  comparison.runs[1].controller = "static_inverse";
+  comparison.spreads = {{.controller = "pid", .rmse = run::Spread{.mean = 0.01}},
+                        {.controller = "static_inverse", .rmse = run::Spread{.mean = 0.02}}};
+  comparison.tuned = {{.controller = "pid", .load_kg = 5.0}};
+  constexpr const char* words = "it oscillates where its target rests, by ±7.8 mm";
+  EXPECT_TRUE(holds(report_html(scenario, comparison), "pid follows the target best"));
+  EXPECT_TRUE(lacks(output::table_of(scenario, comparison), words));
+  comparison.runs[0].cycle = run::LimitCycle{.amplitude = 0.026, .period_s = 0.4, .from_s = 0.0};
+  const std::string html = report_html(scenario, comparison);
+  EXPECT_TRUE(lacks(html, "follows the target best"));
+  EXPECT_TRUE(holds(html, "pid errs least: root mean square error",
+                    std::string(", but ") + words + ". Of the 2 controllers static_inverse is the worst"));
+  EXPECT_TRUE(holds(output::table_of(scenario, comparison), std::string("; ") + words + "\n"));
+}
+
 TEST(Run, SaysWhichControllersKnowTheSimulatedRig) {
   domain::Scenario scenario;
   scenario.loads_kg = {5.0};

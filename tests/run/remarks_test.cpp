@@ -173,6 +173,7 @@ TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
       run.recording.samples.back().state.joint.contraction_ratio =
           0.1 + amplitude * std::clamp(std::sin(0.2 * k), -flat, flat);
     }
+    run.cycle = limit_cycle(run.recording, wanted, rig.tick_s);
     return cycle_warning(run, wanted, settings, rig);
   };
   EXPECT_EQ(swinging(4e-4), "");
@@ -190,7 +191,22 @@ TEST(Remarks, ALoopThatOscillatesIsToldItsAmplitudeAndPeriod) {
   EXPECT_NE(swinging(4e-3).find("(it is 120 V)"), std::string::npos) << "at a limit elsewhere";
   run.metrics.swings = true;
   EXPECT_EQ(swinging(4e-3), "") << "its limits say so";
-  EXPECT_EQ(cycle_warning(run, wanted, controllers::SineCurrent{}, rig), "") << "it is asked to";
+}
+
+TEST(Remarks, AControllerThatOscillatesIsNotPraisedWithoutSayingSo) {
+  plant::Rig rig;
+  rig.muscle.rest_length_m = 0.3;
+  Comparison comparison = of({stood(8.0, 0.0, 0.0), stood(9.5, 0.0, 0.0)});
+  EXPECT_EQ(cycle_words(comparison, rig, "pid"), "");
+  EXPECT_FALSE(in_doubt(comparison, "pid"));
+  comparison.runs[0].cycle = LimitCycle{.amplitude = 0.01, .period_s = 0.4, .from_s = 0.0};
+  comparison.runs[1].cycle = LimitCycle{.amplitude = 0.026, .period_s = 0.4, .from_s = 0.0};
+  EXPECT_EQ(cycle_words(comparison, rig, "pid"),
+            "oscillates where its target rests, by ±7.8 mm (with 9.5 kg)");
+  EXPECT_TRUE(in_doubt(comparison, "pid"));
+  EXPECT_EQ(cycle_words(comparison, rig, "other"), "");
+  comparison.runs.resize(1);
+  EXPECT_EQ(cycle_words(comparison, rig, "pid"), "oscillates where its target rests, by ±3 mm");
 }
 
 TEST(Remarks, ATuningMustBeatNoFeedback) {
