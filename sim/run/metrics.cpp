@@ -27,6 +27,40 @@ Range range_of(std::span<const double> values) {
   return {*low, *high};
 }
 
+/// The target moves from one tick to another, from a rest to the next; from tick `next` on it moves again.
+struct Motion {
+  std::size_t begin, end, next;
+  Range range;
+};
+
+/// Rests of a single tick are none: a triangle may have the same value on both sides of its tip.
+std::vector<Motion> motions_of(std::span<const double> target) {
+  std::vector<Motion> all;
+  for (std::size_t k = 1; k < target.size(); ++k) {
+    if (target[k] == target[k - 1]) continue;
+    if (all.empty() || k > all.back().end + 2) {
+      if (!all.empty()) all.back().next = k;
+      all.push_back({k - 1, k, target.size(), {}});
+    }
+    all.back().end = k;
+  }
+  for (Motion& one : all) one.range = range_of(target.subspan(one.begin, one.end - one.begin + 1));
+  std::erase_if(all, [](const Motion& one) { return one.range.width() < least_range; });
+  return all;
+}
+
+double overshoot_of(const Motion& motion, const Followed& run) {
+  bool moved_up = false, moved_down = false;
+  double largest = 0.0;
+  for (std::size_t k = motion.begin + 1; k < motion.next; ++k) {
+    moved_up = moved_up || run.target[k] > run.target[k - 1];
+    moved_down = moved_down || run.target[k] < run.target[k - 1];
+    if (moved_up) largest = std::max(largest, run.contraction[k] - motion.range.high);
+    if (moved_down) largest = std::max(largest, motion.range.low - run.contraction[k]);
+  }
+  return largest / motion.range.width();
+}
+
 void check(const Followed& run) {
   if (run.target.empty() || run.target.size() != run.contraction.size() ||
       run.target.size() != run.current_mA.size())
@@ -79,8 +113,15 @@ std::size_t returns_to_an_end(std::span<const double> current_mA, double lowest_
 
 }  // namespace
 
+bool moves_in_steps(std::span<const double> target) {
+  const auto motions = motions_of(target);
+  return !motions.empty() &&
+         std::ranges::all_of(motions, [](const Motion& one) { return one.end == one.begin + 1; });
+}
+
 std::optional<double> time_lag_s(const Followed& run) {
   if (range_of(run.target).width() <= 0.0 || range_of(run.contraction).width() <= 0.0) return std::nullopt;
+  if (moves_in_steps(run.target)) return std::nullopt;
   const double duration_s = static_cast<double>(run.target.size() - 1) * run.tick_s;
   const auto most = static_cast<std::size_t>(std::min(2.0, 0.25 * duration_s) / run.tick_s + 1e-9);
   std::vector<double> misfit(most + 2);  // one past the limit, so that the parabola has both its neighbours
@@ -101,27 +142,29 @@ std::optional<double> time_lag_s(const Followed& run) {
 }
 
 std::optional<double> overshoot(const Followed& run) {
-  const Range range = range_of(run.target);
-  if (range.width() < least_range) return std::nullopt;
-  bool moved_up = false, moved_down = false;
-  double largest = 0.0;
-  for (std::size_t k = 1; k < run.target.size(); ++k) {
-    moved_up = moved_up || run.target[k] > run.target[k - 1];
-    moved_down = moved_down || run.target[k] < run.target[k - 1];
-    if (moved_up) largest = std::max(largest, run.contraction[k] - range.high);
-    if (moved_down) largest = std::max(largest, range.low - run.contraction[k]);
-  }
-  return largest / range.width();
+  std::optional<double> largest;
+  for (const Motion& motion : motions_of(run.target))
+    largest = std::max(largest.value_or(0.0), overshoot_of(motion, run));
+  return largest;
 }
 
 std::optional<double> settling_time_s(const Followed& run) {
-  const double band = 0.02 * range_of(run.target).width();
-  if (!run.last_change_s || band < 0.02 * least_range) return std::nullopt;
-  std::size_t settled = run.target.size();  // first tick of the unbroken stretch within the band at the end
-  while (settled > 0 && std::abs(run.contraction[settled - 1] - run.target[settled - 1]) <= band) --settled;
+  const auto motions = motions_of(run.target);
   const double end_s = static_cast<double>(run.target.size() - 1) * run.tick_s;
-  if (settled == run.target.size() || end_s < *run.last_change_s - same_instant_s) return std::nullopt;
-  return std::max(0.0, tidy_s(static_cast<double>(settled) * run.tick_s - *run.last_change_s));
+  if (!run.last_change_s || motions.empty() || end_s < *run.last_change_s - same_instant_s)
+    return std::nullopt;
+  double longest_s = 0.0;
+  for (const Motion& motion : motions) {
+    const double band = 0.02 * motion.range.width();
+    std::size_t settled = motion.next;  // first tick of the unbroken stretch within the band at the end
+    while (settled > motion.begin && std::abs(run.contraction[settled - 1] - run.target[settled - 1]) <= band)
+      --settled;
+    if (settled == motion.next) return std::nullopt;
+    const bool last = motion.next == run.target.size();  // its end is known between ticks
+    const double from_s = last ? *run.last_change_s : static_cast<double>(motion.end) * run.tick_s;
+    longest_s = std::max(longest_s, tidy_s(static_cast<double>(settled) * run.tick_s - from_s));
+  }
+  return longest_s;
 }
 
 Metrics measure(const Followed& run) {

@@ -44,16 +44,22 @@ Metrics measure(const Followed& run);
 
 /// The shift, up to 2 s or a quarter of the run, by which the delayed target fits best (least root mean
 /// square), refined between ticks by a parabola. Before time 0 the target counts as held. None if the target
-/// does not move, if less than a fifth of its motion (mean square) is followed, or if the best shift is the
-/// largest.
+/// does not move or only in steps, which ask for settling, if less than a fifth of its motion (mean square)
+/// is followed, or if the best shift is the largest.
 std::optional<double> time_lag_s(const Followed& run);
 
-/// Largest excursion past the target's own range, as share of that range: above it once the target has moved
-/// up, below it once it has moved down. None for a constant target.
+// A motion of the target is what lies between two rests: a step, a ramp, a whole sine.
+
+/// Whether each motion is a step, done in one tick; false if there is none.
+bool moves_in_steps(std::span<const double> target);
+
+/// Largest excursion past a motion's range before the next begins, as share of that range: above it once the
+/// target has moved up in it, below it once it has moved down. Of several motions the largest share. None for
+/// a constant target.
 std::optional<double> overshoot(const Followed& run);
 
-/// Time from the last commanded change until the error stays within 2 % of the target's range. None if it
-/// never does, if the target is periodic or constant.
+/// Time from the end of a motion until the error stays within 2 % of its range, before the next begins. Of
+/// several motions the longest. None if it does not after one of them, if the target is periodic or constant.
 std::optional<double> settling_time_s(const Followed& run);
 
 /// One figure of a controller over several loads.

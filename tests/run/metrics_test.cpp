@@ -159,6 +159,54 @@ TEST(Overshoot, CountsOnlyInTheDirectionTheTargetHasMoved) {
   EXPECT_NEAR(overshoot(falling.view()).value(), 0.2, 1e-12);
 }
 
+/// Up by 0.1, after a rest by 0.02 more, and down to the start.
+double three_steps(double t) {
+  return t < 1.0 ? 0.05 : t < 3.0 ? 0.15 : t < 5.0 ? 0.17 : 0.05;
+}
+
+TEST(Overshoot, OfSeveralStepsIsTheLargestOfItsOwnStep) {
+  const Columns run{sampled(600, three_steps), sampled(600, [](double t) {
+                      const double past = t > 3.2 && t < 3.4   ? 0.01   // half of its step
+                                          : t > 1.2 && t < 1.4 ? 0.01   // a tenth
+                                          : t > 5.2 && t < 5.4 ? -0.03  // a quarter
+                                                               : 0.0;
+                      return three_steps(t) + past;
+                    })};
+  EXPECT_NEAR(overshoot(run.view()).value(), 0.5, 1e-12);
+}
+
+TEST(Overshoot, OfASineIsOfItsWholeRange) {
+  const auto sine = [](double t) { return 0.05 * std::sin(2.0 * std::numbers::pi * t / 2.5); };
+  const Columns run{sampled(1000, sine), sampled(1000, [&](double t) { return 1.2 * sine(t); })};
+  EXPECT_NEAR(overshoot(run.view()).value(), 0.1, 1e-4);
+}
+
+TEST(Lag, OfStepsIsUnknown) {
+  const auto late = [](const auto& target) {
+    return time_lag_s(
+        Columns{sampled(600, target), sampled(600, [&](double t) { return target(t - 0.12); })}.view());
+  };
+  EXPECT_FALSE(late(three_steps));
+  EXPECT_FALSE(moves_in_steps(std::vector<double>(100, 0.1)));
+  EXPECT_TRUE(late([](double t) { return t < 4.0 ? three_steps(t) : 0.17 - 0.05 * (t - 4.0); }));
+}
+
+TEST(Settling, OfSeveralStepsIsTheLongest) {
+  const auto first_order = [](double t, double time_constant_s) {
+    const auto left = [&](double from, double step) {
+      return t < from ? 0.0 : step * std::exp(-(t - from) / time_constant_s);
+    };
+    return three_steps(t) - left(1.0, 0.1) - left(3.0, 0.02) + left(5.0, 0.12);
+  };
+  Columns run{sampled(600, three_steps),
+              sampled(600, [&](double t) { return first_order(t, t < 3.0 ? 0.3 : 0.1); })};
+  Followed view = run.view();
+  view.last_change_s = 5.0;
+  EXPECT_NEAR(settling_time_s(view).value(), 0.3 * std::log(50.0), tick_s);
+  for (double& reached : run.contraction) reached += 0.0005;  // within 2 % of the first and last step alone
+  EXPECT_FALSE(settling_time_s(view));
+}
+
 TEST(Settling, OfAFirstOrderStepIsLn50TimeConstants) {
   constexpr double time_constant_s = 0.25;
   const auto response = [](double t) {
