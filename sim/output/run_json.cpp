@@ -147,7 +147,7 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
   for (const auto& run : comparison.runs) document["runs"].push_back(run_json(scenario, comparison, run));
   document["spreads"] = Json::array();
   for (const auto& row : comparison.spreads) {
-    Json entry{{"controller", row.controller}};
+    Json entry{{"controller", row.controller}, {"runs", row.runs}, {"runs_with_result", row.with_result}};
     if (row.rmse)
       entry[scenario.rig.has_angle() ? "rmse_rad" : "rmse"] = {
           {"mean", row.rmse->mean},
@@ -158,6 +158,7 @@ std::string json_of(const domain::Scenario& scenario, const run::Comparison& com
     document["spreads"].push_back(std::move(entry));
   }
   document["criteria_not_met"] = comparison.unmet;
+  document["criteria_not_evaluated"] = comparison.unjudged;
   document["warnings"] = comparison.warnings;
   if (comparison.interrupted) document["interrupted"] = true;
   return text_of(document);

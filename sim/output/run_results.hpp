@@ -18,7 +18,8 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
 /// "+" load taken as the range's end, or empty.
 std::string extrapolation_mark(const run::TrackedRun& run);
 
-/// "*" if one of a controller's runs is extrapolated, so that its mean over them is, too.
+/// "*" if one of a controller's runs is extrapolated, so that its mean over them is, too; " (3 of 4 loads)"
+/// if some have no result.
 std::string mean_mark(const run::Comparison& comparison, const std::string& controller);
 
 /// That a run came to where braids end; empty if it did not. `who`: as the note calls it.

@@ -138,7 +138,12 @@ std::string mean_mark(const run::Comparison& comparison, const std::string& cont
   const auto is_extrapolated = [&](const run::TrackedRun& run) {
     return run.controller == controller && run.failure.empty() && extrapolation_mark(run) == "*";
   };
-  return std::ranges::any_of(comparison.runs, is_extrapolated) ? "*" : "";
+  std::string mark = std::ranges::any_of(comparison.runs, is_extrapolated) ? "*" : "";
+  const auto row = std::ranges::find(comparison.spreads, controller, &run::ControllerSpread::controller);
+  if (row != comparison.spreads.end() && row->partial())
+    mark += fmt::format(" ({} of {} {})", row->with_result, row->runs,
+                        comparison.targets.size() > 1 ? "runs" : "loads");
+  return mark;
 }
 
 namespace {
@@ -212,9 +217,9 @@ std::string spreads(const domain::Scenario& scenario, const run::Comparison& com
   Grid grid(heads, 1);
   for (const auto& row : comparison.spreads)
     if (row.rmse && angle)
-      grid.add({row.controller, error_in_degrees(row.rmse->mean), error_in_degrees(row.rmse->lowest),
-                error_in_degrees(row.rmse->highest), error_in_degrees(row.rmse->width()),
-                error_in_degrees(row.rmse->standard_deviation)});
+      grid.add({row.controller + mean_mark(comparison, row.controller), error_in_degrees(row.rmse->mean),
+                error_in_degrees(row.rmse->lowest), error_in_degrees(row.rmse->highest),
+                error_in_degrees(row.rmse->width()), error_in_degrees(row.rmse->standard_deviation)});
     else if (row.rmse)
       grid.add({row.controller + mean_mark(comparison, row.controller), ratio(row.rmse->mean),
                 cell(row.rmse->mean, 1e3 * scenario.rig.muscle.rest_length_m, 2), ratio(row.rmse->lowest),
@@ -327,6 +332,7 @@ std::string table_of(const domain::Scenario& scenario, const run::Comparison& co
          section("found out by the controllers", findings(comparison)) +
          section("contraction", contraction_notes(scenario, comparison)) + section("no result", failures) +
          section("criteria not met", lines(comparison.unmet)) +
+         section("criteria that cannot be evaluated", lines(comparison.unjudged)) +
          section("warnings", pair ? lines(comparison.warnings) : "");
 }
 

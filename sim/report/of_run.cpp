@@ -32,10 +32,10 @@ bool of_angle(const Scenario& scenario) {
   return scenario.rig.has_angle();
 }
 
-/// What a controller's mean is over.
-std::string over_what(const Scenario& scenario) {
-  const std::size_t count = tasks_of(scenario).size();
-  return of_pair(scenario) ? fmt::format("{} runs", count) : fmt::format("{} loads", count);
+/// What a controller's mean is over: "4 loads", "3 of 4 loads".
+std::string over_what(const Scenario& scenario, const run::ControllerSpread& row) {
+  return fmt::format("{}{} {}", row.partial() ? fmt::format("{} of ", row.with_result) : "",
+                     tasks_of(scenario).size(), of_pair(scenario) ? "runs" : "loads");
 }
 
 /// An error in a sentence: of the height of a load, or of the angle of a joint.
@@ -92,21 +92,20 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   const auto failed = std::count_if(comparison.runs.begin(), comparison.runs.end(),
                                     [](const auto& run) { return !run.failure.empty(); });
   const char* of_what = of_angle(scenario) ? "root mean square error of the angle" : "root mean square error";
-  const std::string over = failed == 0         ? over_what(scenario)
-                           : of_pair(scenario) ? "the runs with a result"
-                                               : "the loads with a result";
   const std::string cycles = run::cycle_words(comparison, scenario.rig, best->controller);
-  const std::string error = fmt::format("{} {}{}{}", of_what, full_error_html(best->rmse->mean, scenario),
-                                        tasks_of(scenario).size() == 1 ? "" : ", the mean over " + over,
-                                        cycles.empty() ? "" : ", but it " + cycles);
+  const std::string error =
+      fmt::format("{} {}{}{}", of_what, full_error_html(best->rmse->mean, scenario),
+                  tasks_of(scenario).size() == 1 ? "" : ", the mean over " + over_what(scenario, *best),
+                  cycles.empty() ? "" : ", but it " + cycles);
   const std::string name = escaped(best->controller);
   if (best == worst)
     text = fmt::format("{}: {}.", name, error);
   else
-    text = fmt::format("{} {}: {}. Of the {} controllers {} is the worst: {}.", name,
+    text = fmt::format("{} {}: {}. Of the {} controllers {} is the worst: {}{}.", name,
                        run::in_doubt(comparison, best->controller) ? "errs least" : "follows the target best",
                        error, comparison.spreads.size(), escaped(worst->controller),
-                       full_error_html(worst->rmse->mean, scenario));
+                       full_error_html(worst->rmse->mean, scenario),
+                       worst->partial() ? " over " + over_what(scenario, *worst) : "");
   if (const std::string stood = run::limit_words(comparison, scenario.rig, best->controller); !stood.empty())
     text += fmt::format(" {} {}.", name, stood);
   if (std::any_of(comparison.tuned.begin(), comparison.tuned.end(), [&](const auto& tuned) {
@@ -117,6 +116,7 @@ std::string sentence(const Scenario& scenario, const Comparison& comparison) {
   if (!comparison.unmet.empty())
     text += fmt::format(" {} of the scenario's criteria {} not met.", comparison.unmet.size(),
                         comparison.unmet.size() == 1 ? "is" : "are");
+  if (!comparison.unjudged.empty()) text += " Criteria cannot be evaluated where there is no result.";
   if (const std::string knowing = run::knowing_words(scenario); !knowing.empty())
     text += " " + escaped(knowing) + ".";
   return text + of_given + given;
@@ -166,7 +166,7 @@ std::string table(const Scenario& scenario, const Comparison& comparison) {
     for (std::size_t c = 0; c < columns; ++c) {
       const std::optional<double> rmse = rmse_of(c);
       const std::string mark = mark_of(c);
-      marked = marked || !mark.empty();
+      marked = marked || mark.find_first_of("*+") != std::string::npos;
       html += rmse ? fmt::format("<td{}>{}{}</td>", rmse == least && columns > 1 ? " class='best'" : "",
                                  error_html(*rmse, scenario), mark)
                    : "<td>no result</td>";

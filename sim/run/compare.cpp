@@ -323,8 +323,12 @@ class Comparing {
     for (const auto& settings : settings_) {
       ControllerSpread row{.controller = controllers::name_of(settings)};
       std::vector<double> rmse;
-      for (const auto& run : result_.runs)
-        if (run.controller == row.controller && run.failure.empty()) rmse.push_back(run.metrics.rmse);
+      for (const auto& run : result_.runs) {
+        if (run.controller != row.controller) continue;
+        ++row.runs;
+        if (run.failure.empty()) rmse.push_back(run.metrics.rmse);
+      }
+      row.with_result = rmse.size();
       if (!rmse.empty()) row.rmse = spread(rmse);
       result_.spreads.push_back(std::move(row));
     }
@@ -343,12 +347,20 @@ class Comparing {
               fmt::format("{}: {} = {:.4g}{} is not below {:.4g}{}", who, what, value, unit, *limit, unit));
       };
       for (const auto& run : result_.runs) {
-        if (!run.followed() || !concerns(run.controller) || !run.failure.empty()) continue;
+        if (!run.followed() || !concerns(run.controller)) continue;
+        if (!run.failure.empty()) {
+          if (criterion.rmse_below || criterion.largest_error_below)
+            result_.unjudged.push_back(run.id + ": its errors, as it has no result");
+          continue;
+        }
         check(run.id, "rmse", run.metrics.rmse, criterion.rmse_below);
         check(run.id, "largest_error", run.metrics.largest_error, criterion.largest_error_below);
       }
       for (const auto& row : result_.spreads)
-        if (concerns(row.controller) && row.rmse)
+        if (concerns(row.controller) && row.partial() && criterion.spread_below)
+          result_.unjudged.push_back(fmt::format("{}: its spread, as {} of {} loads have a result",
+                                                 row.controller, row.with_result, row.runs));
+        else if (concerns(row.controller) && row.rmse)
           check(row.controller, "spread", row.rmse->width(), criterion.spread_below);
     }
   }

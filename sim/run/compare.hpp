@@ -39,6 +39,9 @@ struct TrackedRun {
 struct ControllerSpread {
   std::string controller;
   std::optional<Spread> rmse{};
+  std::size_t runs = 0, with_result = 0;
+
+  bool partial() const { return with_result < runs; }
 };
 
 struct Comparison {
@@ -50,6 +53,7 @@ struct Comparison {
   std::vector<std::string> drawn{};     ///< numbers of the rig that were, by path
   bool interrupted = false;             ///< the user stopped it; runs not begun say so in `failure`
   std::vector<std::string> unmet;       ///< criteria of the scenario that are not met, in words
+  std::vector<std::string> unjudged{};  ///< those that cannot be evaluated, as a run has no result
   std::vector<std::string>
       warnings;  ///< targets out of reach and doubtful runs: scenario, load, controllers, why
 };

@@ -281,7 +281,9 @@ bool in_doubt(const Comparison& comparison, std::string_view controller) {
                        [&](const auto& one) { return one.controller == controller && is_bad(one); });
   };
   return has(comparison.runs,
-             [](const TrackedRun& run) { return run.cycle || share_at_limit(run) >= mostly; }) ||
+             [](const TrackedRun& run) {
+               return !run.failure.empty() || run.cycle || share_at_limit(run) >= mostly;
+             }) ||
          has(comparison.tuned, gained_nothing);
 }
 

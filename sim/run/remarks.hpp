@@ -64,8 +64,8 @@ bool gained_nothing(const TunedController& tuned);
 /// That it gained nothing, the likely cause, and the key to change. Only if so.
 std::string tuning_warning(const TunedController& tuned, const plant::Rig& rig);
 
-/// True if a small error says little for a controller: in some run it stood mostly at a limit or oscillates,
-/// which errors do not count before the first move, or its tuning gained nothing.
+/// True if a small error says little for a controller: some run has no result, stood mostly at a limit, or
+/// oscillates, which errors do not count before the first move, or its tuning gained nothing.
 bool in_doubt(const Comparison& comparison, std::string_view controller);
 
 }  // namespace mckibben::run

@@ -73,7 +73,21 @@ TEST_F(Program, ANumericalFailureIs70AndNamesTimeStateAndCause) {
   EXPECT_EQ(said.status, 70);
   EXPECT_TRUE(holds(said.out, "integration failed at t = ", "contraction_ratio = ", "(settling)"));
   EXPECT_TRUE(fs::exists(scratch / "out/fall/11.138kg_step_current.csv"));  // the sound run is not lost
-  const std::string report = read_text(scratch / "out/fall/report.html");   // and the page leads to it alone
+  EXPECT_TRUE(holds(said.out, "\n  step_current (1 of 2 loads)  "));
+  EXPECT_TRUE(lacks(said.out, "cannot be evaluated"));
+
+  write_text(scratch / "fall.yaml",
+             read_text(scratch / "fall.yaml") + "criteria: [{rmse_below: 0.9, spread_below: 0.9}]\n");
+  const auto judged = run("run fall.yaml");
+  EXPECT_EQ(judged.status, 70);
+  EXPECT_TRUE(lacks(judged.out, "criteria not met"));
+  EXPECT_TRUE(holds(judged.out, "criteria that cannot be evaluated\n",
+                    "  step_current at 45 kg: its errors, as it has no result\n",
+                    "  step_current: its spread, as 1 of 2 loads have a result\n"));
+  const auto document = input::Json::parse(read_text(scratch / "out/fall/run.json"));
+  EXPECT_EQ(document.at("criteria_not_evaluated").size(), 2u);
+  EXPECT_EQ(document.at("spreads").at(0).at("runs_with_result"), 1);
+  const std::string report = read_text(scratch / "out/fall/report.html");  // and the page leads to it alone
   EXPECT_TRUE(
       holds(report, "<tr><th scope='row'>45 kg</th><td>no result</td>",
             "<tr data-group='0'><th scope='row'><a href='#group-0' data-group='0'>11.138 kg</a></th>"));

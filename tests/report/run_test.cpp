@@ -49,6 +49,27 @@ TEST(Run, SaysBesideTheErrorThatTheBestControllerOscillates) {
   EXPECT_TRUE(holds(output::table_of(scenario, comparison), std::string("; ") + words + "\n"));
 }
 
+TEST(Run, SaysOverHowManyLoadsAMeanIs) {
+  domain::Scenario scenario;
+  scenario.loads_kg = {5.0, 7.0, 9.0};
+  scenario.controllers = {controllers::PidSettings{}, controllers::StaticInverseSettings{}};
+  run::Comparison comparison;
+  comparison.runs.resize(6);
+  for (std::size_t i = 0; i < 6; ++i) comparison.runs[i].controller = i % 2 == 0 ? "pid" : "static_inverse";
+  comparison.spreads = {{.controller = "pid", .rmse = run::Spread{.mean = 0.01}, .runs = 3, .with_result = 3},
+                        {"static_inverse", run::Spread{.mean = 0.02}, 3, 3}};
+  const auto html = [&] { return report_html(scenario, comparison); };
+  EXPECT_TRUE(lacks(html(), " of 3 loads"));
+  EXPECT_TRUE(holds(html(), "pid follows the target best: ", "the mean over 3 loads. Of the 2"));
+  comparison.spreads[1].with_result = 2;
+  EXPECT_TRUE(holds(html(), "pid follows the target best: ", " over 2 of 3 loads.", " (2 of 3 loads)</td>"));
+  comparison.spreads[0].with_result = 1;
+  comparison.runs[0].failure = "it stopped";
+  EXPECT_TRUE(
+      holds(html(), "pid errs least: ", "the mean over 1 of 3 loads. Of the 2", " (1 of 3 loads)</td>"));
+  EXPECT_TRUE(lacks(html(), "* extrapolated"));
+}
+
 TEST(Run, SaysWhichControllersKnowTheSimulatedRig) {
   domain::Scenario scenario;
   scenario.loads_kg = {5.0};
