@@ -81,8 +81,9 @@ std::string wrong_rig(const controllers::Calibration& calibration, const plant::
   const bool counted = calibration.tube_pull.has_value();
   if (weighs && counted == rig.effects.get<plant::BladderElasticity>().absent())
     return fmt::format(
-        "made with a rig that has {} bladder_elasticity, and this one has {}: it would weigh "
-        "the tube's pull as load; calibrate with this rig (calibrate --rig)",
+        "the rig file of its data has {} bladder_elasticity, and this rig has {}: it would weigh "
+        "the tube's pull as load; if the data are of this rig, calibrate them with its file (calibrate "
+        "--rig)",
         counted ? "a" : "no", counted ? "none" : "one");
   return "";
 }

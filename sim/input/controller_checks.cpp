@@ -41,6 +41,7 @@ class ControllerChecker {
       follow_valve(scenario_.controllers[i], source_, node, scenario_.rig, problems_);
       check_sets_a_pressure(scenario_.controllers[i], *node.find("kind"));
       warn_of_held(scenario_.controllers[i], node);
+      warn_of_steps(scenario_.controllers[i], *node.find("kind"));
       if (const auto* terms = controllers::part_of<controllers::PlansWithModel>(scenario_.controllers[i]);
           terms && !terms->rig.empty())
         load_believed_rig(name, *node.find("rig"));
@@ -70,6 +71,20 @@ class ControllerChecker {
                       fmt::format("co_contraction = {}: it is held, so {} does not follow the stiffness of "
                                   "targets; leave co_contraction out to follow it",
                                   held.text, controllers::name_of(settings)));
+  }
+
+  /// The inverse of the thesis is of a contraction and its speed.
+  void warn_of_steps(const controllers::Settings& settings, const Node& kind) {
+    const auto* open = std::get_if<controllers::OpenLoopSettings>(&settings);
+    const auto* steps = std::get_if<controllers::Steps>(&scenario_.target);
+    if (open == nullptr || open->mode != controllers::OpenLoopMode::trajectory || steps == nullptr ||
+        steps->moves.empty())
+      return;
+    problems_.warning(
+        source_, kind.place,
+        "kind = open_loop: it cannot follow steps, as its command depends on the target's speed: "
+        "at each it jumps to the command for the fastest calibrated speed, and the load stays "
+        "off the target; write a target of kind: minimum_jerk or ramps");
   }
 
   void check_filter(const controllers::CommandFilter& filter, const Node& frequency) {

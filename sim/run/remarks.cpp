@@ -196,6 +196,10 @@ std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const co
     return text +
            "; its law has no rubber tube (effects.bladder_elasticity), and this rig has one: kind: "
            "model_inverse has it, too, and feedback helps";
+  if (open != nullptr && moves_in_steps(wanted.ratios))
+    return text +
+           "; its model gives commands for speeds, and its target moves in steps: a target of kind: "
+           "minimum_jerk or ramps, open_loop_limited, which slows it, or feedback (kind: feedforward_pid)";
   const auto& found = run.recording.findings;
   const auto outside = controllers::value_of(found, "ticks_outside_calibrated_speed");
   if (const auto& range = terms->model.range; outside > 0.0 && !terms->extrapolate_target)
@@ -205,7 +209,9 @@ std::string missed_warning(const TrackedRun& run, const Wanted& wanted, const co
         "commands",
         outside, wanted.ratios.size(), range.lowest_speed_mA_per_s, range.highest_speed_mA_per_s,
         name_of(rig.command_unit()));
-  return text + "; two remedies: feedback (kind: feedforward_pid), or a calibration made with this rig";
+  return text +
+         "; feedback (kind: feedforward_pid) would help and, if its calibration is of another rig, one of "
+         "this rig";
 }
 
 std::string load_warning(const TrackedRun& run, const controllers::Settings& settings) {

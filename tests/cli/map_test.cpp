@@ -77,7 +77,7 @@ TEST_F(Map, ARigWithATubeIsCalibratedAndMappedWithIt) {
   EXPECT_TRUE(holds(read_text(scratch / "of_tube/calibration.yaml"), "tube_pull:"));
   const Said other = mckibben("map of_tube/calibration.yaml --ratios 1 --speeds 1", scratch);
   EXPECT_EQ(other.status, 65);
-  EXPECT_TRUE(holds(other.err, "made with a rig that has a bladder_elasticity, and this one has none"))
+  EXPECT_TRUE(holds(other.err, "the rig file of its data has a bladder_elasticity, and this rig has none"))
       << other.err;
   const Said mapped = mckibben(
       "map of_tube/calibration.yaml --rig tube.yaml --load '14 kg' --ratios 2 --speeds 1 --json", scratch);

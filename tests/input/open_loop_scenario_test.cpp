@@ -48,6 +48,21 @@ TEST(OpenLoopScenario, CountsTheCalibrationAmongItsInputsOnce) {
   EXPECT_EQ(scenario.inputs.front().name, "test.yaml");
 }
 
+TEST(OpenLoopScenario, IsToldThatItCannotFollowSteps) {
+  const auto warnings_of = [](const std::string& target) {
+    std::string text = good_open_loop;
+    text.replace(text.find("{kind: points, points: [{at: 0 s, to: 0.05}]}"), 45, target);
+    std::vector<Problem> warnings;
+    read_scenario(Source("test.yaml", text, MCKIBBEN_TEST_DATA), warnings);
+    return warnings;
+  };
+  EXPECT_TRUE(warnings_of("{kind: ramps, moves: [{at: 0.2 s, lasting: 0.5 s, to: 0.05}]}").empty());
+  EXPECT_TRUE(warnings_of("{kind: steps, start: 0.05, moves: []}").empty());
+  const auto warnings = warnings_of("{kind: steps, moves: [{at: 0.2 s, to: 0.05}]}");
+  ASSERT_EQ(warnings.size(), 2u) << "those along the target";
+  EXPECT_NE(warnings[0].message.find("kind = open_loop: it cannot follow steps"), std::string::npos);
+}
+
 TEST(ModelScenario, IsToldWhereTheModelIsTheSimulatedRigItself) {
   const auto warnings_of = [](const std::string& rig, const std::string& model) {
     std::vector<Problem> warnings;

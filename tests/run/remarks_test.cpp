@@ -62,6 +62,7 @@ TEST(Remarks, AnOpenLoopThatEndsOffItsTargetIsToldWhy) {
   Wanted wanted;
   wanted.ratios.assign(200, 0.03);
   std::fill(wanted.ratios.begin() + 50, wanted.ratios.end(), 0.13);
+  wanted.ratios[50] = 0.08;  // a ramp of two ticks
   controllers::OpenLoopSettings settings;
   settings.model.range = {.lowest_speed_mA_per_s = 5.5, .highest_speed_mA_per_s = 17.0};
   TrackedRun run{.load_kg = 16.0, .controller = "open_loop"};
@@ -76,15 +77,21 @@ TEST(Remarks, AnOpenLoopThatEndsOffItsTargetIsToldWhy) {
             "it ends 15.0 mm below its target and began 15.0 mm above target.start, to which no feedback "
             "brings it; at 120 of 200 ticks its command should change slower or faster than those of the "
             "calibration, 5.5 to 17 mA/s, and it takes the nearest: extrapolate_target: true, or calibrate "
-            "with such commands; two remedies: feedback (kind: feedforward_pid), or a calibration made with "
-            "this rig");
+            "with such commands; feedback (kind: feedforward_pid) would help and, if its calibration is of "
+            "another rig, one of this rig");
   settings.extrapolate_target = true;
   settings.assumed_load_kg = 12.0;
   run.recording.samples.front().state.joint.contraction_ratio = 0.03;
   EXPECT_EQ(
       missed_warning(run, wanted, settings, rig),
-      "it ends 15.0 mm below its target; two remedies: feedback (kind: feedforward_pid), or a calibration "
-      "made with this rig");
+      "it ends 15.0 mm below its target; feedback (kind: feedforward_pid) would help and, if its calibration "
+      "is of another rig, one of this rig");
+  Wanted steps = wanted;
+  steps.ratios[50] = 0.13;
+  EXPECT_EQ(missed_warning(run, steps, settings, rig),
+            "it ends 15.0 mm below its target; its model gives commands for speeds, and its target moves in "
+            "steps: a target of kind: minimum_jerk or ramps, open_loop_limited, which slows it, or feedback "
+            "(kind: feedforward_pid)");
 
   EXPECT_EQ(missed_warning(run, wanted, controllers::FeedforwardPidSettings{}, rig), "") << "has feedback";
   wanted.ratios.back() = 0.12;
