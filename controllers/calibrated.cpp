@@ -51,7 +51,7 @@ Command CalibratedController::step(const Reading& reading) {
   }
   if (!inverse_) {
     weighed_ = weighing_->result();
-    know(weighed_.load_kg);
+    know(weighed_->load_kg);
   }
   const double low_mA = *settings_.weighing.low_mA;
   const double way_mA =
@@ -115,9 +115,11 @@ double CalibratedController::follow_mA(double contraction_ratio) {
 
 std::vector<Finding> CalibratedController::findings() const {
   std::vector<Finding> found;
-  if (weighing_) {
-    found.push_back({"weighed_load", "kg", weighed_.load_kg});
-    found.push_back({"weighed_load_spread", "kg", weighed_.spread_kg});
+  if (weighed_) {
+    found.push_back({"weighed_load", "kg", weighed_->load_kg});
+    found.push_back({"weighed_load_spread", "kg", weighed_->spread_kg});
+  }
+  if (weighing_ && inverse_) {
     found.push_back({"believed_load", "kg", load_kg_});
   }
   const auto count = [](std::int64_t ticks) { return static_cast<double>(ticks); };

@@ -91,7 +91,7 @@ class CalibratedController : public Controller {
   Knowledge knowledge_;
   std::optional<Weighing> weighing_;
   std::optional<Inverse> inverse_;
-  WeighedLoad weighed_;
+  std::optional<WeighedLoad> weighed_;  ///< none as long as it weighs, or if that failed
   double load_kg_ = 0.0, first_mA_ = 0.0, current_mA_ = 0.0, asked_ratio_ = 0.0;
   bool load_extrapolated_ = false, load_at_range_end_ = false;
   std::int64_t ratio_outside_ = 0, speed_outside_ = 0, extrapolated_ = 0, unreachable_ = 0;

@@ -75,10 +75,10 @@ WeighedLoad Weighing::result() const {
     const Contraction& one = seen_[i];
     if (one.samples < fewest_samples) {
       std::ostringstream text;
-      text << "weighing: in contraction " << i + 1 << " of " << seen_.size() << " the load moved by "
+      text << "weighing failed: in contraction " << i + 1 << " of " << seen_.size() << " the load moved by "
            << one.highest_counts - one.lowest_counts << " counts, to a contraction ratio of "
            << static_cast<double>(one.highest_counts) * contraction_per_count_ << ", of which " << one.samples
-           << " samples can be used (at least " << fewest_samples
+           << (one.samples == 1 ? " sample" : " samples") << " can be used (at least " << fewest_samples
            << "; calibrated are contraction ratios from " << range_.lowest_ratio << " to "
            << range_.highest_ratio << "). A higher weighing.high (now " << high_mA_ << ' ' << valve_.unit
            << ") lifts it further, a lower weighing.speed gives more samples";

@@ -73,9 +73,12 @@ std::string did_you_mean(std::string_view word, std::span<const std::string_view
   std::vector<std::string_view> meant;
   const Synonym* const term = word.size() > longest_word ? nullptr : synonym(word);
   if (term != nullptr) meant.assign(term->names.begin(), term->names.end());
+  std::string verb;  // does in one what here is no key or kind
+  for (const std::string_view name : meant)
+    if (name.find(" --") != std::string_view::npos) verb = fmt::format(" See also mckibben {}", name);
   std::erase_if(meant, [&](std::string_view name) { return std::ranges::find(known, name) == known.end(); });
   if (meant.empty() && word.size() <= longest_word) meant = with_part(word, known);
-  if (!meant.empty()) return fmt::format("; did you mean {}?", fmt::join(meant, " or "));
+  if (!meant.empty()) return fmt::format("; did you mean {}?{}", fmt::join(meant, " or "), verb);
   if (const auto best = nearest(word, known)) return fmt::format("; did you mean {}?", *best);
   if (word.size() <= longest_word) meant = with_ending(word, known);
   if (!meant.empty()) return fmt::format("; did you mean {}?", fmt::join(meant, " or "));

@@ -223,6 +223,21 @@ TEST(Safety, AWeighingIsNotMisledByCountsThatJumpAndEndsWhereTheyStandStill) {
   EXPECT_THROW(weighed(false, true, settings), ControllerFailure);
 }
 
+TEST(Weighing, ThatFailedHasNoLoad) {
+  auto settings = with_planted_load<OpenLoopSettings>();
+  settings.assumed_load_kg.reset();
+  const auto controller = settings.make(data_sheets({0.1, 0.1}));
+  controller->rest();
+  std::string why;
+  try {
+    for (std::int64_t k = -controller->preparation_ticks(); k < 0; ++k) controller->step({k, 0.0, 50});
+  } catch (const ControllerFailure& failure) {
+    why = failure.what();
+  }
+  EXPECT_NE(why.find("weighing failed: in contraction 1 of 5"), std::string::npos) << why;
+  for (const Finding& one : controller->findings()) EXPECT_NE(one.unit, "kg") << one.name;
+}
+
 TEST(Settings, KnowWhichControllersHaveFeedbackAndWhichACalibration) {
   Settings settings = PidSettings{};
   EXPECT_NE(part_of<PidForm>(settings), nullptr);

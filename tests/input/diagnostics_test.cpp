@@ -123,6 +123,9 @@ TEST(Suggest, OnlyWhatIsNear) {
   constexpr std::string_view kinds[] = {"encoder", "linear_encoder", "potentiometer"};
   for (const char* const word : {"draw-wire encoder", "string encoder", "draw_wire"})
     EXPECT_EQ(did_you_mean(word, kinds), "; did you mean linear_encoder?");
+  constexpr std::string_view controllers[] = {"pid", "external", "plugin"};
+  EXPECT_EQ(did_you_mean("lqr", controllers),
+            "; did you mean external or plugin? See also mckibben linearise --lqr");
   EXPECT_TRUE(did_you_mean("laser", known).starts_with("; that is `sensors` of the rig: `[{signal: "))
       << "a word of the field that stands elsewhere";
 }
