@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <sim/data/amount.hpp>
+#include <sim/data/given_noise.hpp>
 #include <sim/data/plausible.hpp>
 #include <sim/data/ranges.hpp>
 #include <sim/data/series.hpp>
@@ -216,11 +217,12 @@ class FaultReport {
     const std::string per = unit_of_reading() == "1" ? "1/s" : unit_of_reading() + "/s";
     return {.name = std::string(differing.at(static_cast<std::size_t>(which)).name),
             .size = {.name = "",
-                     .unit = which == loads    ? "kg"
-                             : which == zeros  ? unit_of_reading()
-                             : which == delays ? "s"
-                             : which == drifts ? per
-                                               : "1",
+                     .unit = which == loads          ? "kg"
+                             : which == held_lengths ? "m"
+                             : which == zeros        ? unit_of_reading()
+                             : which == delays       ? "s"
+                             : which == drifts       ? per
+                                                     : "1",
                      .value = value,
                      .low = value - of_95 * deviation,
                      .high = value + of_95 * deviation}};
@@ -234,12 +236,20 @@ class FaultReport {
       fault.words = fmt::format("the zero of {} is {} too {}", whose,
                                 data::amount_of(data_.judged(), std::abs(value), data_.rig),
                                 more_or_less(value, "high", "low"));
-      fault.write = column_line(of, value, 1.0, deviation);
+      fault.write = column_line(of, of.judged().channel, value, 1.0, deviation);
+    } else if (which == held_lengths) {
+      fault.words = fmt::format("the length at which {} was held is {} mm {} than written", whose,
+                                number_of(1e3 * std::abs(value), 1e3 * deviation),
+                                more_or_less(value, "shorter", "longer"));
+      const auto& columns = of.measured->columns;
+      const auto given = std::ranges::find_if(columns, &data::is_length);
+      fault.write =
+          column_line(of, given->channel, -value / of.rest_length_m, 1.0, deviation / of.rest_length_m);
     } else if (which == gains) {
       fault.words = fmt::format("the readings of {} are {} % too {}", whose,
                                 number_of(100.0 * std::abs(value), 100.0 * deviation),
                                 more_or_less(value, "large", "small"));
-      fault.write = column_line(of, 0.0, 1.0 / (1.0 + value), deviation);
+      fault.write = column_line(of, of.judged().channel, 0.0, 1.0 / (1.0 + value), deviation);
     } else if (which == delays) {
       const std::string ms = number_of(1e3 * std::abs(value), 1e3 * deviation);
       fault.words =
@@ -332,10 +342,10 @@ class FaultReport {
     return place;
   }
 
-  /// A run's own place for the judged reading, with what is off taken out. Empty where its unit's size is not
-  /// known here.
-  std::string column_line(const domain::Run& of, double zero, double factor, double deviation) const {
-    const plant::Channel& channel = of.judged().channel;
+  /// A run's own place for a column, with what is off taken out. Empty where its unit's size is not known
+  /// here.
+  std::string column_line(const domain::Run& of, const plant::Channel& channel, double zero, double factor,
+                          double deviation) const {
     const std::string key = channel.key_in_dataset();
     domain::ColumnPlace place = place_of(of, key);
     const std::optional<double> size = data::size_in_ours(of, channel, place.unit);

@@ -21,6 +21,7 @@
 #include <Eigen/Core>
 
 #include <sim/diagnose/candidate.hpp>
+#include <sim/diagnose/predict.hpp>
 #include <sim/domain/dataset.hpp>
 
 namespace mckibben::identify {
@@ -29,19 +30,24 @@ namespace mckibben::identify {
 /// typical one, a factor of e.
 struct Differing {
   std::string_view name;
-  double typical;  ///< m (over the rest length), 1, kg, s, m/s (over the rest length)
+  double typical;  ///< m (over the rest length), 1, kg, s, m/s (over the rest length), m
 };
-inline constexpr std::array<Differing, 5> differing{{{"zeros_differ", 1e-3},
+inline constexpr std::array<Differing, 6> differing{{{"zeros_differ", 1e-3},
                                                      {"gains_differ", 0.03},
                                                      {"loads_differ", 0.5},
                                                      {"delays_differ", 0.02},
-                                                     {"drifts_differ", 1e-4}}};
-inline constexpr int zeros = 0, gains = 1, loads = 2, delays = 3, drifts = 4;
-/// Values of each run of what is simulated where it is most probable, as it is not straight: loads and
+                                                     {"drifts_differ", 1e-4},
+                                                     {"lengths_differ", 1e-2}}};
+inline constexpr int zeros = 0, gains = 1, loads = 2, delays = 3, drifts = 4, held_lengths = 5;
+/// What a run is labelled with: the load that hangs, or the length at which a muscle is held.
+inline int label_of(const domain::Dataset& data) {
+  return data.lengths_are_given() ? held_lengths : loads;
+}
+/// Values of each run of what is simulated where it is most probable, as it is not straight: labels and
 /// delays.
 using OfRuns = std::array<std::vector<double>, differing.size()>;
 constexpr bool is_simulated(int which) {
-  return which == loads || which == delays;
+  return which == loads || which == delays || which == held_lengths;
 }
 
 /// What a bench may have wrong: its part in a simulation. All 0: nothing.
@@ -64,6 +70,13 @@ struct Bench {
 struct Setting {
   plant::Rig rig;
   Bench bench{};
+
+  /// As it is in a run, by its place.
+  diagnose::Loaded of_run(const domain::Run& run, std::size_t place) const {
+    diagnose::Loaded one{rig, bench.load_kg(run.load_kg, place)};
+    one.rig.joint.length_offset_m += bench.of_run(held_lengths, place);
+    return one;
+  }
 };
 
 /// A number of the bench that is the same in all runs.

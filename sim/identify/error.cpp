@@ -75,7 +75,8 @@ void Error::take(const Wander& wander) {
     if (!rows_->is_judged(block)) continue;
     random.col(zeros).segment(block.begin, block.rows).setOnes();
     random.col(gains).segment(block.begin, block.rows) = read;
-    random.col(loads).segment(block.begin, block.rows) = wander.load.segment(block.begin, block.rows);
+    random.col(label_of(rows_->data())).segment(block.begin, block.rows) =
+        wander.label.segment(block.begin, block.rows);
     random.col(drifts).segment(block.begin, block.rows) =
         Eigen::VectorXd::LinSpaced(block.rows, 0.0, static_cast<double>(block.rows - 1) * rows_->row_s);
   }

@@ -22,8 +22,10 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
   if (problem_.rows.data().parts_of_a_run) return all;  // one sensor read them all
   const Eigen::VectorXd variance = Model(problem_, point, base.error, base.term_N).variance();
   for (int g = 0; g < static_cast<int>(differing.size()); ++g) {
-    if (point.lets_differ(g) || (unlike_ && (g == zeros || g == gains || g == loads)) ||
-        ((g == delays || g == drifts) && data::are_settled_points(rows_.data())))
+    const int label = label_of(problem_.rows.data());
+    if (point.lets_differ(g) || ((g == loads || g == held_lengths) && g != label) ||
+        (unlike_ && (g == zeros || g == gains || g == loads)) ||
+        ((g == delays || g == drifts) && data::are_settled_points(problem_.rows.data())))
       continue;
     Point q = point;
     q.differ.push_back(g);

@@ -36,18 +36,21 @@ domain::Dataset without_faults(const Model& model) {
       model.problem->dictionary.setting(at.lets_differ(loads) ? at.alike_in(loads) : at).bench;
   for (std::size_t i = 0; i < rows.runs.size(); ++i) {
     domain::Run& run = data.runs[rows.runs[i]];
-    double own_kg = 0.0;
+    double own_kg = 0.0, own_m = 0.0;
     std::vector<double>& read = run.judged().values;
     double zero = bench.zero, gain = 0.0, drift_per_s = 0.0, late_s = 0.0;
     for (std::size_t place = 0; place < model.point.differ.size(); ++place) {
       const double own = values_of(model, place)[i];
       if (model.point.differ[place] == loads) own_kg += own;
+      if (model.point.differ[place] == held_lengths) own_m += own;
       if (model.point.differ[place] == zeros) zero += own;
       if (model.point.differ[place] == gains) gain += own;
       if (model.point.differ[place] == delays) late_s += own;
       if (model.point.differ[place] == drifts) drift_per_s += own;
     }
     run.load_kg = bench.load_kg(run.load_kg, i) + own_kg;
+    if (own_m != 0.0)
+      for (double& ratio : run.measured->give("contraction")) ratio += own_m / run.rest_length_m;
     for (std::size_t k = 0; k < read.size(); ++k)
       read[k] = (read[k] - zero - drift_per_s * rows.row_s * static_cast<double>(k)) / (1.0 + gain);
     late_s -= bench.ahead_s;

@@ -22,6 +22,7 @@ constexpr std::size_t most_knots = 24;                    // of a run
 constexpr double step = 0.01;                             // of an input or a start, for a difference
 // Of a load, to both sides: a load at rest on its stop, or held by friction, shows no smaller one.
 constexpr double load_step = 0.1;
+constexpr double length_step_m = 5e-4;  // of a given length, to both sides: a sensor of length shows it
 
 /// What one setting reads in a block's rows.
 Eigen::VectorXd seen(const Rows& rows, const Block& block, const Readings& readings, const Bench& bench) {
@@ -103,7 +104,7 @@ Eigen::VectorXd Simulator::read(const Setting& setting) const {
         runs, runs, threads_, rows_.data().rig.integrator.method,
         [&](std::size_t run) {
           const domain::Run& measured = rows_.data().runs[rows_.runs[run]];
-          diagnose::Wanted one{&measured, {{setting.rig, setting.bench.load_kg(measured.load_kg, run)}}};
+          diagnose::Wanted one{&measured, {setting.of_run(measured, run)}};
           one.disturbance.begin = [&setting, run](std::size_t, ride::Underway& begins) {
             begin(setting.bench, run, begins);
           };
@@ -135,8 +136,7 @@ Eigen::MatrixXd Simulator::differences(std::span<const Setting> settings,
     const auto wanted = [&](const Job& job) {
       diagnose::Wanted one{&rows_.data().runs[rows_.runs[job.run]], {}};
       one.tolerance = tolerance;
-      for (const std::size_t i : job.settings)
-        one.rigs.push_back({settings[i].rig, settings[i].bench.load_kg(one.run->load_kg, job.run)});
+      for (const std::size_t i : job.settings) one.rigs.push_back(settings[i].of_run(*one.run, job.run));
       one.disturbance.begin = [&settings, job](std::size_t i, ride::Underway& begins) {
         begin(settings[job.settings[i]].bench, job.run, begins);
       };
@@ -190,7 +190,7 @@ Eigen::MatrixXd Simulator::rubs(const Setting& setting, double reach_m, std::siz
           const std::size_t run = index / groups, first = index % groups * others;
           diagnose::Wanted one{&rows_.data().runs[rows_.runs[run]], {}};
           const std::size_t count = std::min(others, places - first);
-          one.rigs.assign(count + 1, {setting.rig, setting.bench.load_kg(one.run->load_kg, run)});
+          one.rigs.assign(count + 1, setting.of_run(*one.run, run));
           one.disturbance.begin = [&setting, run](std::size_t, ride::Underway& begins) {
             begin(setting.bench, run, begins);
           };
@@ -246,11 +246,12 @@ double hat(const std::vector<double>& knots, std::size_t knot, double at_s) {
 
 Wander Simulator::wander(const Setting& setting) const {
   const domain::Dataset& data = rows_.data();
+  const bool held = data.lengths_are_given();
   const std::size_t muscles = data.rig.pair() != nullptr ? 2 : 1;
   Wander made;
   struct Lane {
     std::size_t knot = 0, muscle = 0;
-    double load = 0.0;  ///< share of it that is added
+    double label = 0.0;  ///< what is added to it: kg of load, or m of a given length
     const StartNumber* start = nullptr;
   };
   // As many for every setting, as one begins where another was.
@@ -276,12 +277,14 @@ Wander Simulator::wander(const Setting& setting) const {
                       1e9 * static_cast<double>(muscle));  // the muscles' wanders know nothing of each other
       }
     for (std::size_t i = 0; i < made.starts; ++i) list.push_back({.start = &start_numbers.at(i)});
-    for (const double side : {load_step, -load_step}) list.push_back({.load = side});
+    const double label =
+        held ? length_step_m : load_step * setting.bench.load_kg(measured.load_kg, lanes.size() - 1);
+    for (const double side : {label, -label}) list.push_back({.label = side});
     most = std::max(most, all.size() + made.starts);
     made.knots.push_back(std::move(all));
   }
   made.columns = Eigen::MatrixXd::Zero(rows_.size(), static_cast<Eigen::Index>(most));
-  made.read = made.load = made.together = Eigen::VectorXd::Zero(rows_.size());
+  made.read = made.label = made.together = Eigen::VectorXd::Zero(rows_.size());
   struct Group {
     std::size_t run, first, last;
   };
@@ -295,10 +298,14 @@ Wander Simulator::wander(const Setting& setting) const {
         [&](std::size_t index) {
           const Group& g = groups[index];
           diagnose::Wanted one{&data.runs[rows_.runs[g.run]], {}};
-          const double load_kg = setting.bench.load_kg(one.run->load_kg, g.run);
-          one.rigs.assign(g.last - g.first + 1, {setting.rig, load_kg});
-          for (std::size_t i = g.first; i < g.last; ++i)
-            one.rigs[i - g.first + 1].load_kg *= 1.0 + lanes[g.run][i].load;
+          one.rigs.assign(g.last - g.first + 1, setting.of_run(*one.run, g.run));
+          for (std::size_t i = g.first; i < g.last; ++i) {
+            const double label = lanes[g.run][i].label;
+            if (held)
+              one.rigs[i - g.first + 1].rig.joint.length_offset_m += label;
+            else
+              one.rigs[i - g.first + 1].load_kg += label;
+          }
           one.disturbance.drive = [&, g,
                                    begin_s = one.run->measured && !one.run->measured->time_s.empty()
                                                  ? one.run->measured->time_s.front()
@@ -306,7 +313,7 @@ Wander Simulator::wander(const Setting& setting) const {
                                                         double to_s, ride::Drive& drive) {
             if (i == 0) return;
             const Lane& lane = lanes[g.run][g.first + i - 1];
-            if (lane.load != 0.0 || lane.start != nullptr) return;
+            if (lane.label != 0.0 || lane.start != nullptr) return;
             const auto& knots = made.knots[g.run];
             const bool given = lane.muscle == 0 ? drive.given() != plant::GivenPressure::none
                                                 : drive.opposite.given() != plant::GivenPressure::none;
@@ -332,22 +339,20 @@ Wander Simulator::wander(const Setting& setting) const {
             for (std::size_t i = g.first; i < g.last; ++i) {
               const Eigen::VectorXd change =
                   seen(rows_, block, readings[i - g.first + 1], setting.bench) - base;
-              if (const double side = lanes[g.run][i].load; side != 0.0)
-                made.load(part) +=
-                    change /
-                    (2.0 * side * setting.bench.load_kg(data.runs[rows_.runs[g.run]].load_kg, g.run));
+              if (const double side = lanes[g.run][i].label; side != 0.0)
+                made.label(part) += change / (2.0 * side);
               else
                 made.columns(part, static_cast<Eigen::Index>(i)) = change / step;
             }
           });
         });
     Eigen::MatrixXd list(rows_.size(), made.columns.cols() + 2);
-    list << made.columns, made.read, made.load;
+    list << made.columns, made.read, made.label;
     return list;
   });
   made.columns = all.leftCols(made.columns.cols());
   made.read = all.col(made.columns.cols());
-  made.load = all.col(made.columns.cols() + 1);
+  made.label = all.col(made.columns.cols() + 1);
   for (const Block& block : rows_.blocks)
     made.together.segment(block.begin, block.rows) = made.columns.middleRows(block.begin, block.rows)
                                                          .leftCols(std::ssize(made.knots[block.run]))

@@ -21,8 +21,9 @@ struct Wander {
                               ///< of a run that began on its way, of each number of its start
   std::vector<std::vector<double>> knots{};  ///< [run] when they are [s]; the first is the start's
   std::size_t starts = 0;                    ///< numbers of a start, in deviations of what is known of them
-  Eigen::VectorXd read{}, load{};  ///< of the setting; how that changes by a kg, both 0 but for the judged
-  Eigen::VectorXd together{};      ///< by all knots of a run at once
+  Eigen::VectorXd read{}, label{};  ///< of the setting; how that changes by a kg of the load, or a m of a
+                                    ///< given length, both 0 but for the judged
+  Eigen::VectorXd together{};       ///< by all knots of a run at once
 };
 
 /// What was simulated, in the order in which a search asked for it: it asks for the same again.

@@ -200,6 +200,21 @@ TEST(HandedOver, LoadsThatAreOffByAFactorAndOneBesides) {
   EXPECT_EQ(found.bench[1].runs.size(), data.runs.size() - 1);
 }
 
+TEST(HandedOver, TheLengthOfOneRunOfAMuscleThatIsHeld) {
+  constexpr double off_m = 8e-3;
+  domain::Dataset data = diagnose::on_a_bench({}, 0.5);
+  domain::Run& other = data.runs[2];
+  for (double& ratio : other.measured->give("contraction")) ratio -= off_m / other.rest_length_m;
+  const Diagnosis found = handed_over(data);
+  ASSERT_EQ(found.bench.size(), 1U) << found.because;
+  EXPECT_EQ(found.bench[0].name, "lengths_differ");
+  EXPECT_EQ(found.bench[0].runs, std::vector{other.id});
+  EXPECT_TRUE(surrounds(found.bench[0].size, off_m));
+  EXPECT_TRUE(holds(found.bench[0].words, "r3", "mm shorter than written")) << found.bench[0].words;
+  EXPECT_TRUE(holds(found.bench[0].write, "contraction: {", "zero: -0.02")) << found.bench[0].write;
+  EXPECT_TRUE(found.effects.empty()) << found.because;
+}
+
 TEST(HandedOver, TheZeroOfTheLoadCellOfAMuscleThatIsHeld) {
   domain::Dataset data = diagnose::on_a_bench({}, 0.5);
   for (domain::Run& run : data.runs)

@@ -48,7 +48,7 @@ Wander wander_of(const Rows& rows) {
   for (Index i = rows.blocks[1].begin; i < rows.size(); ++i)
     wander.columns(i, 3) = 0.0;  // it has fewer knots
   wander.read = VectorXd::Random(rows.size());
-  wander.load = VectorXd::Random(rows.size()) * 1e-3;
+  wander.label = VectorXd::Random(rows.size()) * 1e-3;
   wander.together = VectorXd::Ones(rows.size());
   return wander;
 }
