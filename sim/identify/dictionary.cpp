@@ -225,7 +225,7 @@ Dictionary::Dictionary(const domain::Dataset& data, double written_coarsely) : d
   }
   std::set<std::string> names;
   for (const Entry& entry : entries) names.insert(entry.name);
-  all_names = names.size() + differing.size() + 3;
+  all_names = names.size() + differing.size() - 1 + 3;  // of loads and lengths one is a label
   const double rest_length_m = described_.muscle.rest_length_m;
   double reach = 0.0;
   for (const domain::Run& run : data.runs)

@@ -279,7 +279,8 @@ Wander Simulator::wander(const Setting& setting) const {
     for (std::size_t i = 0; i < made.starts; ++i) list.push_back({.start = &start_numbers.at(i)});
     const double label =
         held ? length_step_m : load_step * setting.bench.load_kg(measured.load_kg, lanes.size() - 1);
-    for (const double side : {label, -label}) list.push_back({.label = side});
+    if (label != 0.0)
+      for (const double side : {label, -label}) list.push_back({.label = side});
     most = std::max(most, all.size() + made.starts);
     made.knots.push_back(std::move(all));
   }

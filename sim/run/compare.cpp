@@ -1,5 +1,6 @@
 // Targets x loads x controllers; see the header.
 #include <atomic>
+#include <bit>
 #include <span>
 #include <utility>
 #include <variant>
@@ -219,7 +220,9 @@ class Comparing {
         wanted.size(), threads,
         [&](std::size_t i) {
           const std::size_t at = wanted[i];
-          return Order{plan_of(scenario_, result_.runs[at].load_kg, at + 1), controller_of(at)};
+          // One load has one noise, whichever controllers and loads are beside it.
+          const double load_kg = result_.runs[at].load_kg;
+          return Order{plan_of(scenario_, load_kg, std::bit_cast<std::uint64_t>(load_kg)), controller_of(at)};
         },
         [&](std::size_t i, Recording recording) {
           result_.runs[wanted[i]].recording = std::move(recording);

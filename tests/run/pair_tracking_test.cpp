@@ -1,6 +1,8 @@
 // Two muscles under controllers on the rig itself: the stiffness that a row tells, models that are true and
 // wrong, delays, tuning, and no heap on the way.
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -51,6 +53,25 @@ TEST(JointStiffness, IsThatOfTheBraidsAtTheirPressures) {
   const double R = rig.joint.wheel_radius_m, l0 = rig.muscle.rest_length_m;
   EXPECT_NEAR(plant::joint_stiffness_N_m_per_rad(plant, state, {}, {}),
               R * R / l0 * (drop_N(0.12, 3e5) + drop_N(0.08, 2e5)), 1e-5);
+}
+
+// Controllers are compared under one noise: neither place in the file nor other loads change a run's.
+TEST(PairTracking, NoiseGoesByTheLoad) {
+  const auto ran = [](std::vector<double> loads_kg, bool twice) {
+    controllers::PairPidSettings other = pid();
+    other.name = "other";
+    domain::Scenario scenario = sine({pid()}, std::move(loads_kg));
+    if (twice) scenario.controllers.insert(scenario.controllers.begin(), other);
+    scenario.noise.encoder_jitter = 1e-3;
+    const Comparison all = compare(scenario, 1, nobody);
+    std::map<double, std::set<double>> rmse;
+    for (const TrackedRun& run : all.runs) rmse[run.load_kg].insert(run.metrics.rmse);
+    return rmse;
+  };
+  const auto alone = ran({1.0}, false), beside = ran({0.0, 1.0}, true);
+  EXPECT_EQ(beside.at(0.0).size(), 1u);
+  EXPECT_EQ(beside.at(1.0), alone.at(1.0));
+  EXPECT_NE(beside.at(0.0), alone.at(1.0));
 }
 
 TEST(PairTracking, ATrueModelFollowsAndAWrongLoadIsMadeUpForByFeedback) {
