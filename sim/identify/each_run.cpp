@@ -69,4 +69,12 @@ EachRun each_run(const Model& model, std::size_t place) {
   return list;
 }
 
+bool most_are_right(const Grams& grams, const Point& point, int which) {
+  constexpr double right = 0.1;  // of the largest
+  const auto place = std::ranges::find(point.differ, which) - point.differ.begin();
+  std::vector<double> off;
+  for (const Eigen::VectorXd& mean : grams.means) off.push_back(std::abs(mean[place]));
+  return data::median(off) < right * std::ranges::max(off);
+}
+
 }  // namespace mckibben::identify

@@ -38,4 +38,8 @@ struct Common {
   double spread(const std::vector<double>& values) const;
 };
 
+/// Whether what differs is off in few runs: lengths that are off in most are a law of lengths that is, no
+/// wrong labels.
+bool most_are_right(const Grams& grams, const Point& point, int which);
+
 }  // namespace mckibben::identify

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sim/identify/each_run.hpp>
 #include <sim/identify/search.hpp>
 
 namespace mckibben::identify {
@@ -32,6 +33,7 @@ std::vector<Start> Search::starts_from(const Model& base, const Eigen::MatrixXd&
     std::ranges::sort(q.differ);
     // Its scale, and the rest with it, by evidence.
     const Error error = base.error.with(q.differ).fitted_anew(residual, slopes, variance);
+    if (unlike_ && g == held_lengths && !most_are_right(error.grams(residual, slopes), q, g)) continue;
     std::ranges::move(sets(problem_, error, q, base.term_N, residual, slopes, columns, list, far),
                       std::back_inserter(all));
   }
