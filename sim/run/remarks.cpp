@@ -20,6 +20,17 @@ constexpr double no_gain = 0.95;  // of the cost without feedback
 constexpr double missed = 0.2;    // of the target's range; five_loads ends within 0.17 of it
 constexpr double rests_s = 0.5;   // at the end, before it is judged there
 constexpr double misread = 0.1;   // of the mean absolute error
+constexpr double jump = 0.1;      // of the way from where a run begins to the target's furthest value
+constexpr double usual_skip_s = 2.0, skipped = 0.25;  // of the run: what a loop may need to get there
+
+/// Whether errors count from the start of a run that begins elsewhere than its target.
+bool begins_off_target(const TrackedRun& run, const Wanted& target, const plant::Rig& rig) {
+  if (target.first != 0 || target.values.empty() || run.recording.samples.empty()) return false;
+  const Sample& sample = run.recording.samples.front();
+  const double start = rig.has_angle() ? sample.angle_rad : sample.state.joint.contraction_ratio;
+  const auto [lowest, highest] = std::ranges::minmax(target.values);
+  return std::abs(target.values.front() - start) > jump * std::max(highest - start, start - lowest);
+}
 
 /// Without the DAC's rounding, which would fill the text with digits.
 std::string command(double value, const plant::Rig& rig) {
@@ -155,10 +166,18 @@ std::string knowing_words(const domain::Scenario& scenario) {
 }
 
 std::string counted_words(const domain::Scenario& scenario, const Comparison& comparison) {
-  if (std::ranges::all_of(comparison.targets, [](const Wanted& target) { return target.first == 0; }))
-    return "";
-  return scenario.skip_s ? fmt::format(", from {:g} s on", *scenario.skip_s)
-                         : ", from the target's first move on";
+  const bool from_the_start =
+      std::ranges::all_of(comparison.targets, [](const Wanted& target) { return target.first == 0; });
+  if (scenario.skip_s) return from_the_start ? "" : fmt::format(", from {:g} s on", *scenario.skip_s);
+  const bool with_the_way_there = std::ranges::any_of(comparison.runs, [&](const TrackedRun& run) {
+    return run.followed() && begins_off_target(run, comparison.targets[run.target], scenario.rig);
+  });
+  if (from_the_start && !with_the_way_there) return "";
+  return fmt::format(", from {} on{}", from_the_start ? "0 s" : "the target's first move",
+                     with_the_way_there
+                         ? fmt::format(", the way from rest included (skip: {:.2g} s leaves it out)",
+                                       std::min(usual_skip_s, skipped * scenario.duration_s))
+                         : "");
 }
 
 std::string limit_warning(const TrackedRun& run, const plant::Rig& rig, bool calibrated) {

@@ -32,7 +32,8 @@ std::string knowing_words(const domain::Scenario& scenario);
 /// Whether no target was asked for: all commands are given, and the target was left out.
 bool follows_nothing(const domain::Scenario& scenario, const Comparison& comparison);
 
-/// From when on errors count: ", from 1 s on"; empty where it is from the beginning.
+/// From when on errors count: ", from 1 s on", and whether the way from rest to the target counts, which
+/// nobody asked for. Empty where they count from the beginning and a run begins at its target.
 std::string counted_words(const domain::Scenario& scenario, const Comparison& comparison);
 
 /// The same of one run, with what would help: for a warning. Empty unless it stood there `mostly`.

@@ -34,6 +34,31 @@ TEST(Remarks, SayHowLongAControllerStoodAtALimitAndWithWhichLoadMost) {
   EXPECT_EQ(limit_words(of({stood(8.0, 0.5, 0.0)}), {}, "other"), "");
 }
 
+TEST(Remarks, SayFromWhenErrorsCountAndWhatTheWayFromRestAdds) {
+  domain::Scenario scenario;
+  scenario.duration_s = 8.0;
+  TrackedRun run = stood(8.0, 0.0, 0.0);
+  run.recording.samples.resize(4);  // at rest, at 0
+  Comparison comparison = of({run});
+  const auto said = [&](const std::vector<double>& values, std::size_t first) {
+    Wanted target;
+    target.ratios = target.values = values;
+    target.first = first;
+    comparison.targets = {target};
+    return counted_words(scenario, comparison);
+  };
+  EXPECT_EQ(said({0.05, 0.05, 0.1, 0.1}, 1), ", from the target's first move on");
+  EXPECT_EQ(said({0.10, 0.12, 0.15, 0.10}, 0),
+            ", from 0 s on, the way from rest included (skip: 2 s leaves it out)");
+  EXPECT_EQ(said({0.001, 0.02, 0.05, 0.10}, 0), "") << "begins where the load rests";
+  scenario.duration_s = 1.0;
+  EXPECT_NE(said({0.1, 0.1, 0.1, 0.1}, 0).find("skip: 0.25 s"), std::string::npos);
+  scenario.skip_s = 0.0;
+  EXPECT_EQ(said({0.10, 0.12, 0.15, 0.10}, 0), "") << "as it was asked for";
+  scenario.skip_s = 0.5;
+  EXPECT_EQ(said({0.10, 0.12, 0.15, 0.10}, 2), ", from 0.5 s on");
+}
+
 TEST(Remarks, NameTheKeyThatWouldHelp) {
   plant::Rig rig;
   EXPECT_EQ(limit_warning(stood(8.0, 0.4, 0.0), rig), "");
