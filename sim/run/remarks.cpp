@@ -170,7 +170,8 @@ std::string counted_words(const domain::Scenario& scenario, const Comparison& co
       std::ranges::all_of(comparison.targets, [](const Wanted& target) { return target.first == 0; });
   if (scenario.skip_s) return from_the_start ? "" : fmt::format(", from {:g} s on", *scenario.skip_s);
   const bool with_the_way_there = std::ranges::any_of(comparison.runs, [&](const TrackedRun& run) {
-    return run.followed() && begins_off_target(run, comparison.targets[run.target], scenario.rig);
+    return run.followed() && run.target < comparison.targets.size() &&
+           begins_off_target(run, comparison.targets[run.target], scenario.rig);
   });
   if (from_the_start && !with_the_way_there) return "";
   return fmt::format(", from {} on{}", from_the_start ? "0 s" : "the target's first move",
